@@ -30,7 +30,7 @@ namespace Guidewire.Io
 
         /// <summary>Where an instrument with these points, from its hub to its tip, is.</summary>
         /// <param name="field">Where the vessel is, if it moves.</param>
-        public LumenPlace Of(Vector3d[] points, WallField? field)
+        public LumenPlace Of(Vector3d[] points, WallField? field = null)
         {
             points = field == null ? points : Array.ConvertAll(points, point => field.AtRest(point));
             int last = points.Length - 1;

@@ -175,6 +175,97 @@ namespace Guidewire.Core.Tests
             Assert.That(restored.Save(), Is.EqualTo(simulation.Save()));
         }
 
+        /// <summary>A wire in a bend whose radius breathes has the couple EI/R(t); the walls do the work that bends
+        /// it.</summary>
+        [Test]
+        public void InABreathingBend_TheCoupleFollowsTheRadius_AndTheAccountCloses()
+        {
+            const double radius = 40.0;
+            const double change = 0.2;
+            const double period = 8.0;
+            SimulationParameters parameters = InBend(radius, x => change * (x - new Vector3d(0.0, radius, 0.0)),
+                period);
+            double stiffness = parameters.Material.YoungsModulus * Math.PI / 4.0 * Math.Pow(0.2e-3, 4.0);
+            Simulation simulation = Simulation.Create(parameters);
+            Go(simulation, 100);
+            double stored = Energy(simulation);
+            double work = simulation.Report()!.Extremes!.WallWork;
+            double largest = 0.0;
+            for (int k = 0; k < 200; k++)
+            {
+                Go(simulation, 1);
+                double bend = stiffness / (1e-3 * radius
+                    * (1.0 + change * Math.Sin(2.0 * Math.PI * simulation.Time / period)));
+                StressRecord stress = simulation.Stress()!;
+                double couple = Enumerable.Range(28, 5).Average(j => stress.Couple[j].Length);
+                Assert.That(couple, Is.EqualTo(bend).Within(0.01 * bend), "at " + simulation.Time);
+                double gained = Energy(simulation) - stored;
+                largest = Math.Max(largest, Math.Abs(gained));
+                double done = simulation.Report()!.Extremes!.WallWork - work;
+                Assert.That(done, Is.EqualTo(gained).Within(0.02 * Math.Max(largest, 0.1 * stored)),
+                    "work at " + simulation.Time);
+            }
+        }
+
+        [Test]
+        public void AnElasticWireWithoutFriction_IsAfterACycleWhereItWas()
+        {
+            SimulationParameters parameters = InBeatingArch(0.0);
+            var times = new[] { 0.0, 4.0, 100.0 };
+            parameters.Drive.Table = new DriveTable(new TimeTable(times, new[] { 0.0, 0.07, 0.07 }),
+                new TimeTable(times, new double[3]));
+            parameters.Drive.DisplacementPerStep = 0.0;
+            parameters.Material.MassDamping = 20.0;
+            parameters.Method.MaxSimulationSteps = 1000;
+            Simulation simulation = Simulation.Create(parameters);
+            Go(simulation, 120);
+            for (int quarter = 0; quarter < 4; quarter++)
+            {
+                Vector3d[] start = simulation.State.Positions.ToArray();
+                Go(simulation, 20);
+                for (int i = 0; i < start.Length; i++)
+                {
+                    Assert.That(Vector3d.Distance(simulation.State.Positions[i], start[i]), Is.LessThan(1e-3), "mm");
+                }
+                Go(simulation, 5);
+            }
+        }
+
+        private static double Energy(Simulation simulation)
+        {
+            Vector3d energies = simulation.Energies()!.Value;
+            return energies.X + energies.Y + energies.Z;
+        }
+
+        // A wire of 60 mm in a bend with 0.05 mm around it.
+        private static SimulationParameters InBend(double radius, Func<Vector3d, Vector3d> amplitude, double period)
+        {
+            const int n = 60;
+            SimulationParameters parameters = WallScenes.Wire(n, 0.2e-3);
+            Vector3d On(double s) => new Vector3d(0.0, radius * (1.0 - Math.Cos(s / radius)),
+                radius * Math.Sin(s / radius));
+            Vector3d[] axis = Enumerable.Range(0, 111).Select(k => On(k)).ToArray();
+            parameters.Scene.Walls = new ContactShape[]
+            {
+                new TubeShape(axis, axis.Select(_ => 0.25).ToArray(), true, true)
+                {
+                    Motion = Beating(axis, 1.0, amplitude, period),
+                },
+            };
+            parameters.Scene.GuidewireLength = n;
+            parameters.Scene.ProximalEnd = ProximalEnd.Free;
+            parameters.Scene.Start = new RodStart(
+                Enumerable.Range(0, n + 1).Select(k => On(25.0 + k)).ToArray(),
+                Enumerable.Range(0, n).Select(k => Quaterniond.FromAxisAngle(Vector3d.UnitX, -(25.5 + k) / radius))
+                    .ToArray(), new Vector3d[n + 1], new Vector3d[n]);
+            parameters.Drive.Kind = Drive.Hold;
+            parameters.Drive.Displacement = 0.0;
+            parameters.Material.MassDamping = 20.0;
+            parameters.Method.TimeStep = 0.04;
+            parameters.Method.MaxSimulationSteps = 10000;
+            return parameters;
+        }
+
         private static SimulationParameters InBeatingArch(double friction)
         {
             SimulationParameters parameters = WallScenes.Arch(60, 0.05, 20.0, 100.0);
