@@ -460,9 +460,9 @@ namespace Guidewire.Core
         public void Serialize(Snapshot snapshot)
         {
             _dynamics.Serialize(snapshot);
-            SerializeWalls(snapshot);
             if (!snapshot.IsWritten)
             {
+                Terms.Walls()?.Barrier.SetTime(Time);
                 FollowEnds();
             }
             if (!snapshot.Section(SectionKey, SerializeOwn))
@@ -519,6 +519,7 @@ namespace Guidewire.Core
 
         private void SerializeOwn(Snapshot snapshot)
         {
+            SerializeWalls(snapshot);
             snapshot.Serialize(ref _startFactorisations);
             snapshot.Serialize(ref _hubWork);
             snapshot.Serialize(ref _outside);
@@ -536,14 +537,9 @@ namespace Guidewire.Core
             _dynamics.SerializeHistory(snapshot, _timeStep);
         }
 
-        // Where walls are that move; a reader without the writer's ones goes to this time.
         private void SerializeWalls(Snapshot snapshot)
         {
             BarrierEnergy? barrier = Terms.Walls()?.Barrier;
-            if (!snapshot.IsWritten)
-            {
-                barrier?.SetTime(Time);
-            }
             snapshot.OptionalSection(barrier?.Fields.Key ?? "", !(barrier?.Fields.Carrier >= 0) ? null
                 : (Action<Snapshot>)(part =>
                 {
