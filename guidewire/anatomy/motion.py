@@ -12,6 +12,7 @@ A_k = R_k^T (1/scale across t', 1/stretch along t'), R_k the shortest turn from 
 from __future__ import annotations
 
 import csv
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -24,6 +25,8 @@ _SIZES = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "deg": np.pi / 180.0, "r
 _STEPS = 30  # of Newton's method
 _SPACING = 2e-3  # m
 _CHUNK = 4000  # points at once
+_BEAT = ((0.0, 0.0), (0.08, 0.12), (0.2, 0.7), (0.32, 1.0), (0.4, 0.98), (0.5, 0.45), (0.6, 0.12), (0.7, 0.08),
+         (0.8, 0.08), (0.9, 0.04), (1.0, 0.0))  # phase of a cycle, share of the contraction
 
 
 def write_centreline(file: Path, rest: list[np.ndarray], displaced: np.ndarray | list[np.ndarray],
@@ -67,7 +70,7 @@ class VesselMotion:
         self._branches: list[np.ndarray] = []
         own = [motion] + ([motion["breathing"]] if "breathing" in motion else [])
         self._cycles = [self._cycle(one) for one in own]
-        self._ramp = float(motion.get("rampTime", 0.25 * self._cycles[0].period))
+        self.ramp = float(motion.get("rampTime", 0.25 * self._cycles[0].period))
         self._rest = np.concatenate(self._branches) if self._branches else np.zeros((1, 3))
         self.set_time(0.0)
 
@@ -78,7 +81,7 @@ class VesselMotion:
 
     def set_time(self, time: float) -> None:
         """Go to a time, s."""
-        u = min(1.0, max(0.0, time / self._ramp)) if self._ramp > 0.0 else 1.0
+        u = min(1.0, max(0.0, time / self.ramp)) if self.ramp > 0.0 else 1.0
         ramp = u**3 * (10.0 - u * (15.0 - 6.0 * u))
         values = [ramp * cycle.values((cycle.phase + time / cycle.period) % 1.0) for cycle in self._cycles]
         now = self._rest.copy()
@@ -232,3 +235,74 @@ def _read(file: Path, missing: dict[str, float]) -> dict[str, np.ndarray]:
         table[name] = _SIZES.get(unit, 1.0) * np.array(column, dtype=float)
     count = len(lines) - 1
     return {**{name: np.full(count, value) for name, value in missing.items()}, **table}
+
+
+def beat_of_heart(points: list[np.ndarray], ostium: np.ndarray, base: np.ndarray, apex: np.ndarray,
+                  phases: np.ndarray) -> list[np.ndarray]:
+    """Return displacements (phases, k, 3) of points on the surface of a left ventricle that is taken for an ellipsoid.
+
+    Between end diastole, phase 0, and end systole the ventricle becomes shorter along its axis from base to apex by
+    0.14, narrower by 0.12, and turns by 8 degrees from base to apex. It rests around end systole and in mid diastole
+    (Shechter, Resar and McVeigh, Med Phys 32 (2005) 255). Displacements are those against the ostium, where a guiding
+    catheter sits and goes along.
+    """
+    axis = (apex - base) / np.linalg.norm(apex - base)
+    extent = np.linalg.norm(apex - base)
+    curve = CubicSpline(*np.array(_BEAT).T, bc_type="periodic")
+
+    def contracted(x: np.ndarray, share: float) -> np.ndarray:
+        along = (x - base) @ axis
+        across = x - base - along[:, None] * axis
+        turned = Rotation.from_rotvec((np.radians(8.0) * share * along / extent)[:, None] * axis).apply(across)
+        return base + (1.0 - 0.14 * share) * along[:, None] * axis + (1.0 - 0.12 * share) * turned
+
+    moved = []
+    for own in points:
+        moved.append(np.array([contracted(own, share) - own - (contracted(ostium[None], share) - ostium)
+                               for share in curve(phases) - curve(0.0)]))
+    return moved
+
+
+def motion_of(parameters: Mapping[str, Any]) -> VesselMotion | None:
+    """Return how the vessel of a run moves; None where it stands still. Files have whole names."""
+    motion = (parameters.get("vessel") or {}).get("motion")
+    return None if motion is None else VesselMotion(motion, float(parameters["metresPerUnit"]), _place_of(parameters))
+
+
+def drawn_cycles(parameters: Mapping[str, Any], walls: Sequence[np.ndarray], count: int = 32
+                 ) -> dict[int, list[dict[str, Any]]]:
+    """Return by the number of a wall that moves, the vessel first where there is one, what pictures draw: of each cycle
+    by itself the displacements (count, 3 n) of the wall's vertices, its period and the ramp in s, and its phase at time
+    0."""
+    own = [one for one in (parameters.get("vessel"), *(parameters.get("obstacles") or ())) if one]
+    drawn = {}
+    for k, wall in enumerate(own):
+        motion = own[0].get("motion") if wall.get("motion") == "vessel" else wall.get("motion")
+        if motion is not None:
+            drawn[k] = _drawn(motion, float(parameters["metresPerUnit"]), _place_of(parameters), walls[k], count)
+    return drawn
+
+
+def _place_of(parameters: Mapping[str, Any]) -> Any:
+    """The vessel's placement: scaled, turned about z, x and y, and moved."""
+    turn = Rotation.from_euler("zxy", np.array(parameters.get("rotation", (0, 0, 0)), dtype=float)[[2, 0, 1]],
+                               degrees=True)
+    scale, position = (np.array(parameters.get(key, missing), dtype=float)
+                       for key, missing in (("scale", (1, 1, 1)), ("position", (0, 0, 0))))
+    return lambda points: turn.apply(scale * points) + position
+
+
+def _drawn(motion: dict[str, Any], metres_per_unit: float, place: Any, vertices: np.ndarray, count: int
+           ) -> list[dict[str, Any]]:
+    drawn = []
+    for own in [motion] + ([motion["breathing"]] if "breathing" in motion else []):
+        alone = {**{key: own[key] for key in ("period", "heartRate", "rigid", "centreline") if key in own},
+                 "spacing": motion.get("spacing", _SPACING), "rampTime": 0.0}
+        vessel = VesselMotion(alone, metres_per_unit, place)
+        rows = []
+        for k in range(count):
+            vessel.set_time(vessel.period * k / count)
+            rows.append((vessel.moved(vertices) - vertices).ravel())
+        drawn.append({"period": vessel.period, "phase": float(own.get("phase", 0.0)),
+                      "ramp": VesselMotion(motion, metres_per_unit, place).ramp, "displacements": np.array(rows)})
+    return drawn

@@ -31,8 +31,8 @@ from guidewire.sessions.steered import RULES as STEERED
 from guidewire.viewer.cases import title_of
 from guidewire.viewer.held import HeldInstruments
 from guidewire.viewer.recording import (
-    ENERGIES, HUB, Channel, Recording, ending_of, facts_of, largest_shown, lumen_of, make_channels, radius_of, read_off,
-    sheath_of, units_of,
+    ENERGIES, HUB, Channel, Recording, ending_of, facts_of, largest_shown, lumen_of, make_channels, moving_walls,
+    radius_of, read_off, sheath_of, units_of,
 )
 
 PUSH_SPEED = 40.0              # units a second of in-game time, as in the Unity scene
@@ -153,6 +153,7 @@ class LiveFrames:
         self._warnings = list(warnings)
         self._walls = session.walls()
         self.described = session.describe()
+        self._moving = moving_walls(session.parameters, self._walls)
         self._sheath = sheath_of(session.parameters, self._numbers(session.state, 0.0))
         self.begin()
 
@@ -180,7 +181,7 @@ class LiveFrames:
         return Recording(
             self._title, "", self._warnings, facts_of(session.parameters, None), radius_of(session.parameters),
             self._channels(cost, *states), name_walls(session.parameters, self._walls), self._sheath, self._largest,
-            self.described, soft_walls(session.parameters),
+            self.described, soft_walls(session.parameters), self._moving,
         )
 
     def frame(self, state: State, cost: float, *head: float) -> bytes:

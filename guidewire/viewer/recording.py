@@ -73,6 +73,7 @@ class Recording:
     largest : as of `largest_shown`, where more was seen than these frames; None: of these.
     described : as of `Session.describe`; empty where it is not known: then there is no fluoroscopy.
     soft : the numbers of walls that give way.
+    moving : as of `drawn_cycles`.
     """
 
     title: str
@@ -86,6 +87,7 @@ class Recording:
     largest: np.ndarray | None = None
     described: Mapping[str, Any] = field(default_factory=dict)
     soft: Sequence[int] = ()
+    moving: Mapping[int, Sequence[Mapping[str, Any]]] = field(default_factory=dict)
 
     def to_bytes(self, exact: bool = True) -> bytes:
         """Return the block for the page; where it need not be exact, of 16 bits a number between the lowest and the
@@ -101,6 +103,8 @@ class Recording:
         } for channel, size in zip(self.channels, largest)]
         walls = [{
             "kind": kind, "isSoft": k in self.soft,
+            "cycles": [{**cycle, "displacements": arrays.quantise(cycle["displacements"].reshape(-1, 3), 3)}
+                       for cycle in self.moving.get(k, ())],
             "vertices": arrays.add(wall.vertices, "f4") if exact else arrays.quantise(wall.vertices, 3),
             "triangles": arrays.add(wall.triangles, "u2" if len(wall.vertices) <= _STEPS else "u4"),
         } for k, (kind, wall) in enumerate(self.walls)]
@@ -385,7 +389,18 @@ def read_recording(run: Run, walls: Sequence[Surface], frames: int, described: M
         facts_of(run.parameters, run.summary), radius_of(run.parameters),
         make_channels(units_of(run.parameters), numbers), name_walls(run.parameters, walls),
         sheath_of(run.parameters, numbers), described=described, soft=soft_walls(run.parameters),
+        moving=moving_walls(run.parameters, walls),
     )
+
+
+def moving_walls(parameters: Mapping[str, Any], walls: Sequence[Surface]) -> dict[int, list[dict[str, Any]]]:
+    """Return what pictures draw of walls that move, as of `drawn_cycles`."""
+    own = [one for one in (parameters.get("vessel"), *(parameters.get("obstacles") or ())) if one]
+    if not any("motion" in one for one in own):
+        return {}
+    from guidewire.anatomy.motion import drawn_cycles
+
+    return drawn_cycles(parameters, [wall.vertices for wall in walls])
 
 
 def ending_of(outcome: str | None, reliable: bool | None, reason: str) -> str:

@@ -19,6 +19,13 @@
  * @property {boolean} isSoft whether it gives way
  * @property {Float32Array} vertices x, y, z each, units; where it gives way, as they are drawn now
  * @property {Uint32Array} triangles three indices each
+ * @property {Cycle[]} cycles of its motion; none where it stands still
+ *
+ * @typedef {object} Cycle
+ * @property {number} period s
+ * @property {number} phase at time 0
+ * @property {number} ramp s in which the motion grows from 0
+ * @property {Float32Array} displacements of the vertices at phases an even distance apart
  *
  * @typedef {object} Recorded
  * @property {string} title
@@ -62,6 +69,8 @@ export function unpackRecording(bytes) {
       isSoft: wall.isSoft,
       vertices: Float32Array.from(unpack(bytes, start, wall.vertices)),
       triangles: Uint32Array.from(unpack(bytes, start, wall.triangles)),
+      cycles: (wall.cycles ?? []).map((/** @type {any} */ cycle) =>
+        ({ ...cycle, displacements: Float32Array.from(unpack(bytes, start, cycle.displacements)) })),
     })),
   };
 }
@@ -77,8 +86,9 @@ export class Recording {
     this.radius = radius;
     this.channels = new Map(channels.map((channel) => [channel.name, channel]));
     this.walls = walls;
-    /** Vertices at rest, of walls that give way. @type {Map<Wall, Float32Array>} */
-    this._atRest = new Map(walls.filter((wall) => wall.isSoft).map((wall) => [wall, wall.vertices.slice()]));
+    /** Vertices at rest, of walls that give way or move. @type {Map<Wall, Float32Array>} */
+    this._atRest = new Map(walls.filter((wall) => wall.isSoft || wall.cycles.length > 0)
+      .map((wall) => [wall, wall.vertices.slice()]));
     this._isMoved = false;
     /** Counts how often vertices were moved. */
     this.moves = 0;
@@ -166,6 +176,11 @@ export class Recording {
     this._isMoved = false;
     for (const [wall, rest] of this._atRest) {
       if (wasMoved) wall.vertices.set(rest);
+      for (const cycle of wall.cycles) {
+        displace(wall.vertices, cycle, this.at("time", frame)[0]);
+        this._isMoved = true;
+      }
+      if (!wall.isSoft) continue;
       this.centrelines.forEach((name, k) => {
         const displacements = `wallDisplacements${k || ""}`;
         if (!this.channels.has(displacements)) return;
@@ -238,4 +253,22 @@ function unpack(bytes, start, packed) {
   const every = low.length;
   const span = high.map((value, k) => value - low[k]);
   return Float64Array.from(numbers, (value, k) => low[k % every] + (value / 65535) * span[k % every]);
+}
+
+/**
+ * Adds the displacements of a cycle of a wall's motion at a time, linear between the phases that are known.
+ * @param {Float32Array} vertices @param {Cycle} cycle @param {number} time s
+ */
+function displace(vertices, cycle, time) {
+  const count = cycle.displacements.length / vertices.length;
+  const at = (cycle.phase + time / cycle.period) * count;
+  const before = Math.floor(at);
+  const u = cycle.ramp > 0 ? Math.min(1, Math.max(0, time / cycle.ramp)) : 1;
+  const ramp = u ** 3 * (10 - u * (15 - 6 * u));
+  const next = ramp * (at - before);
+  const one = (((before % count) + count) % count) * vertices.length;
+  const two = ((((before + 1) % count) + count) % count) * vertices.length;
+  for (let k = 0; k < vertices.length; k++) {
+    vertices[k] += (ramp - next) * cycle.displacements[one + k] + next * cycle.displacements[two + k];
+  }
 }
