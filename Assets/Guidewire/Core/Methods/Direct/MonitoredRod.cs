@@ -515,7 +515,8 @@ namespace Guidewire.Core
 
         // Between walls more is kept than without.
         private string SectionKey => Terms.Walls() == null ? "direct"
-            : Terms.Walls()!.HoldsStart ? "direct, walls" : "direct, walls, free";
+            : (Terms.Walls()!.HoldsStart ? "direct, walls" : "direct, walls, free")
+            + Terms.Walls()!.Barrier.Fields.Key;
 
         private void SerializeOwn(Snapshot snapshot)
         {
@@ -540,13 +541,12 @@ namespace Guidewire.Core
         private void SerializeWalls(Snapshot snapshot)
         {
             BarrierEnergy? barrier = Terms.Walls()?.Barrier;
-            snapshot.OptionalSection(barrier?.Fields.Key ?? "", !(barrier?.Fields.Carrier >= 0) ? null
-                : (Action<Snapshot>)(part =>
-                {
-                    barrier!.Fields.Serialize(part, Time);
-                    barrier.WallsMoved();
-                    _monitor!.SerializeWork(part);
-                }));
+            if (barrier?.Fields.Carrier >= 0)
+            {
+                barrier.Fields.Serialize(snapshot, Time);
+                barrier.WallsMoved();
+                _monitor!.SerializeWork(snapshot);
+            }
         }
 
         private void SerializeSlips(Snapshot snapshot)

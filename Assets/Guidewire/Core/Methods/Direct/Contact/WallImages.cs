@@ -22,7 +22,7 @@ namespace Guidewire.Core
                 Of[w] = walls[w].Motion == null ? null
                     : Shared[w] < w ? Of[Shared[w]] : new WallField(walls[w].Motion!);
                 Carrier = Carrier < 0 && Of[w] != null ? w : Carrier;
-                Key += Of[w] == null || Shared[w] < w ? "" : " " + walls[w].Motion!.Cycles.Count;
+                Key += Of[w] == null || Shared[w] < w ? "" : ", moving " + walls[w].Motion!.Cycles.Count;
             }
         }
 
@@ -35,8 +35,8 @@ namespace Guidewire.Core
         /// <summary>The first wall that moves, -1: none. A vessel is before its obstacles.</summary>
         public int Carrier { get; } = -1;
 
-        /// <summary>What a saved state has to agree in.</summary>
-        public string Key { get; } = "moving walls";
+        /// <summary>What a saved state has to agree in; empty where no wall moves.</summary>
+        public string Key { get; } = "";
 
         /// <summary>The time of all, s.</summary>
         public double Time { get; private set; }
