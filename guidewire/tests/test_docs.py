@@ -249,7 +249,8 @@ def test_every_array_of_a_log_is_explained(live, tmp_path):
                   | {catheter_name(row.name, 0) for row in CATHETER if row.switch != "never"})
     found = set()
     soft = {"logContacts": True, "vessel.wallStiffness": 1e5}
-    scenes = (("sheath", soft), ("cantilever", {"logStrains": True, "material": "nitinol"}),
+    moving = {"vessel.motion": {"period": 1, "rigid": {"translation": [0, 0, 1]}}}
+    scenes = (("sheath", {**soft, **moving}), ("cantilever", {"logStrains": True, "material": "nitinol"}),
               ("catheter", {"logHub": True, **soft}))
     for k, (scene, changes) in enumerate(scenes):
         folder = run(live, tmp_path / str(k), ROOT / f"params/{scene}.json", maxSimulationSteps=1,

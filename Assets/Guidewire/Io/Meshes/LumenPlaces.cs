@@ -38,8 +38,8 @@ namespace Guidewire.Io
             int front = isInside ? last : Front(points, out isInside);
             Vector3d place = front < 0 ? _path.Inlet.Centre : points[front];
             int near = front < 0 ? _path.Inlet.Point : _path.Locate(place);
-            return new LumenPlace(isInside, field?.Moved(place) ?? place, near, _path.BranchOf(near), _path.DistanceOf(place, near),
-                _path.LeftFrom(place, near), front >= 0 && _path.IsAtTarget(near));
+            return new LumenPlace(isInside, field?.Moved(place) ?? place, near, _path.BranchOf(near),
+                _path.DistanceOf(place, near), _path.LeftFrom(place, near), front >= 0 && _path.IsAtTarget(near));
         }
 
         private bool MayHaveLeft(Vector3d[] points)

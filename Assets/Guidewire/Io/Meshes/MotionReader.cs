@@ -65,7 +65,8 @@ namespace Guidewire.Io
                 throw own.Wrong(RampTime, "a number >= 0 (s)");
             }
             var motion = new WallMotion(cycles, branches, spacing, ramp);
-            string? fold = motion.FindFold(branches.SelectMany(branch => branch).Concat(wall.SurfacePoints()).ToArray());
+            string? fold = motion.FindFold(
+                branches.SelectMany(branch => branch).Concat(wall.SurfacePoints()).ToArray());
             return fold == null ? motion : throw own.Refused(fold);
         }
 

@@ -18,8 +18,8 @@ namespace Guidewire.Core
         private readonly MaterialRod _rod;
 
         /// <summary>Of a wire whose places and gaps are kept elsewhere.</summary>
-        public GapMotion(MaterialRod rod, WallLaw[] laws, NeighbourList near, (Vector3d[][] Now, Vector3d[][] Next) nodes,
-            (double[] OfNodes, double[] OfElements) gaps, double units)
+        public GapMotion(MaterialRod rod, WallLaw[] laws, NeighbourList near,
+            (Vector3d[][] Now, Vector3d[][] Next) nodes, (double[] OfNodes, double[] OfElements) gaps, double units)
         {
             _laws = laws;
             _near = near;
@@ -97,7 +97,8 @@ namespace Guidewire.Core
             double free = MaxStepOf(w, j, fraction, radius, gap, hint);
             if (free == 0.0)
             {
-                _laws[w].Wall.Nearest(_x[w][j], _x[w][j + 1], double.PositiveInfinity, ref hint, out SurfaceContact contact);
+                _laws[w].Wall.Nearest(_x[w][j], _x[w][j + 1], double.PositiveInfinity, ref hint,
+                    out SurfaceContact contact);
                 gap = _laws[w].Wall.UnsignedDistance(contact.Distance) - radius;
                 free = MaxStepOf(w, j, fraction, radius, gap, hint);
             }
@@ -120,9 +121,10 @@ namespace Guidewire.Core
             {
                 return fraction;
             }
-            return gap > 0.0 ? _laws[w].Wall.ConservativeTimeOfImpact(_x[w][i], _x[w][i], _to[w][i], _to[w][i], clearance,
-                WallLaw.Resolution(radius, gap, left), -1, _near.FeaturesAlongNode(w, i, _x[w], _to[w], fraction), fraction)
-                : 0.0;
+            (Vector3d x, Vector3d to) = (_x[w][i], _to[w][i]);
+            return gap > 0.0 ? _laws[w].Wall.ConservativeTimeOfImpact(x, x, to, to, clearance,
+                WallLaw.Resolution(radius, gap, left), -1, _near.FeaturesAlongNode(w, i, _x[w], _to[w], fraction),
+                fraction) : 0.0;
         }
     }
 }

@@ -57,8 +57,8 @@ namespace Guidewire.Core
         /// <summary>A point, units, as wall w sees it.</summary>
         public Vector3d AtRest(int w, in Vector3d x) => Of[w]?.AtRest(x) ?? x;
 
-        /// <summary>Sets the ways of what is at points of wall w at rest, units, between two times; the walls are left at
-        /// the present one.</summary>
+        /// <summary>Sets the ways of what is at points of wall w at rest, units, between two times; the walls are
+        /// left at the present one.</summary>
         /// <param name="ways">Receives the ways; where it is 0 none is asked for.</param>
         public void SetWays(int w, Vector3d[] rest, int count, double from, double to, Vector3d[] ways)
         {

@@ -63,8 +63,8 @@ namespace Guidewire.Core
             _step = dt;
         }
 
-        /// <summary>A stage begins, see <see cref="BarrierEnergy.BeginStage"/>; sets the reference, which goes with moving
-        /// walls.</summary>
+        /// <summary>A stage begins, see <see cref="BarrierEnergy.BeginStage"/>; sets the reference, which goes with
+        /// moving walls.</summary>
         public void BeginStage(Vector3d[] free, Vector3d[] velocities, double h, Vector3d[]? around)
         {
             for (int i = 0; i < _nodes; i++)

@@ -17,8 +17,8 @@ namespace Guidewire.Core
             double start = dynamics.Time;
             double end = start + dt;
             bool isCarried = walls.Barrier.Fields.Carrier >= 0 && !walls.HoldsStart;
-            double move = isCarried ? 0.0 : Vector3d.Distance(schedule.Hub.PositionAt(end) - walls.Spring.LagOf(dynamics.Shape),
-                dynamics.Shape.X[0]);
+            double move = isCarried ? 0.0 : Vector3d.Distance(
+                schedule.Hub.PositionAt(end) - walls.Spring.LagOf(dynamics.Shape), dynamics.Shape.X[0]);
             move = Math.Max(move, schedule.InnerMove(dt));
             double turn = Math.Abs(schedule.Hub.FrameTurnAt(end) - dynamics.ProximalTurn)
                 + Math.Abs(schedule.Distal.TurnAt(end) - dynamics.DistalTurn);

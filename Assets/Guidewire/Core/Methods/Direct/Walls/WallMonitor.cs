@@ -209,8 +209,8 @@ namespace Guidewire.Core
             TakeForces(shape, record);
         }
 
-        // How deep the straight element is in a wall that moves, by distances in space: those at rest over the length of
-        // their gradient, at the points of the element that may be nearest.
+        // How deep the straight element is in a wall that moves, by distances in space: those at rest over the length
+        // of their gradient, at the points of the element that may be nearest.
         private double DepthInSpace(int w, int j, WallField field, double radius, ref int hint)
         {
             const int Pieces = 4;
