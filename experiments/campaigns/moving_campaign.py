@@ -91,10 +91,11 @@ def draw(seed: int, folder: Path) -> dict[str, Any]:
     element = min(2.0, 0.9 * np.sqrt(8.0 * 0.01 * radius / (0.3 / bend)))
     inside = np.ceil(insertion / element)
     length = 30.0 + insertion + 10.0
+    young = float(10.0**random.uniform(9.7, 10.9))
     scene = {"solver": "direct", "integrator": "implicitEuler", "timeStep": step, "deltaThreshold": 0,
              "maxSimulationSteps": int(insertion / (speed * step)), "guidewireLength": length,
              "guidewireOffset": 2.0 - length, "numberRodElements": int(inside * 1.25) + 4, "wireRadius": 1e-3 * radius,
-             "youngsModulus": float(10.0**random.uniform(9.7, 10.9)), "massDamping": 20, "proximalEnd": "clamped",
+             "youngsModulus": young, "shearModulus": 0.38 * young, "massDamping": 20, "proximalEnd": "clamped",
              "drive": "displace", "insertionSpeed": 1e-3 * speed, "logEvery": 1, "logFormat": "npz",
              "sheath": {"exit": [0, 0, EXIT]},
              "vessel": {"shape": "mesh", "file": f"moving-{seed}.obj",

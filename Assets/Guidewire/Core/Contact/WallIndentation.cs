@@ -9,7 +9,8 @@ namespace Guidewire.Core
     {
         private const double Reach = 4.0;    // beyond the wire's surface, of its radius
 
-        private readonly Vector3d[] _rest;      // units; none where the wall is rigid
+        private readonly Vector3d[] _rest;      // units; none where the wall is rigid and stands still
+        private readonly Vector3d[] _given;     // of a wall that moves, before it does
         private readonly double[] _radii;       // of the wire and each catheter, units
         private readonly double _perMetre;      // units
         private bool _isMoved;
@@ -21,7 +22,9 @@ namespace Guidewire.Core
         public WallIndentation(SimulationParameters parameters, ContactShape wall, IEnumerable<Vector3d> vertices)
         {
             Vertices = new List<Vector3d>(vertices).ToArray();
-            _rest = wall.Softness == null ? Array.Empty<Vector3d>() : (Vector3d[])Vertices.Clone();
+            _rest = wall.Softness == null && wall.Motion == null ? Array.Empty<Vector3d>()
+                : (Vector3d[])Vertices.Clone();
+            _given = wall.Motion == null ? Array.Empty<Vector3d>() : (Vector3d[])Vertices.Clone();
             _perMetre = 1.0 / parameters.Scene.MetresPerUnit;
             _radii = new double[1 + parameters.Scene.Catheters.Count];
             for (int k = 0; k < _radii.Length; k++)
@@ -38,10 +41,16 @@ namespace Guidewire.Core
         /// <param name="centrelines">Nodes of the wire and of each catheter, units.</param>
         /// <param name="displacements">Of walls at their elements, m, as <see cref="ContactRecord.Displacements"/>;
         /// none: the wall is at rest.</param>
+        /// <param name="field">Where the wall is, if it moves; null: at rest.</param>
         /// <returns>Whether they may differ from before.</returns>
-        public bool Move(IReadOnlyList<Vector3d[]> centrelines, IReadOnlyList<Vector3d[]> displacements)
+        public bool Move(IReadOnlyList<Vector3d[]> centrelines, IReadOnlyList<Vector3d[]> displacements,
+            WallField? field = null)
         {
-            bool wasMoved = _isMoved;
+            bool wasMoved = _isMoved || field != null;
+            for (int i = 0; i < _given.Length; i++)
+            {
+                _rest[i] = field?.Moved(_given[i]) ?? _given[i];
+            }
             if (wasMoved)
             {
                 Array.Copy(_rest, Vertices, _rest.Length);

@@ -68,6 +68,18 @@ namespace Guidewire.Core
             SetTime(0.0);
         }
 
+        /// <summary>How the wall moves.</summary>
+        public WallMotion Motion => _motion;
+
+        /// <summary>Goes to a time, s, with the cycles of another field of the same motion.</summary>
+        public void Follow(WallField other, double time)
+        {
+            Array.Copy(other._since, _since, _since.Length);
+            Array.Copy(other._phase, _phase, _phase.Length);
+            _time = double.NaN;
+            SetTime(time);
+        }
+
         /// <summary>The time, s.</summary>
         public double Time => _time;
 

@@ -11,9 +11,11 @@ namespace Guidewire.Runtime
     {
         private readonly WallIndentation _drawn;
 
-        private WallMesh(WallIndentation drawn, WallSurface surface)
+        private readonly int _wall;
+
+        private WallMesh(WallIndentation drawn, WallSurface surface, int wall)
         {
-            _drawn = drawn;
+            (_drawn, _wall) = (drawn, wall);
             Vertices = Array.ConvertAll(drawn.Vertices, vertex => vertex.ToUnity());
             Triangles = new int[surface.Triangles.Count];
             for (int i = 0; i < Triangles.Length; i++)
@@ -38,16 +40,17 @@ namespace Guidewire.Runtime
             {
                 WallSurface surface = WallSurface.Create(walls[k], state.Positions[state.ElementCount],
                     0.5 * state.ElementCount * state.ElementLength);
-                meshes[k] = new WallMesh(new WallIndentation(session.Parameters, walls[k], surface.Vertices), surface);
+                meshes[k] = new WallMesh(new WallIndentation(session.Parameters, walls[k], surface.Vertices),
+                    surface, k);
             }
             return meshes;
         }
 
-        /// <summary>Moves the vertices of a wall that gives way to where it is drawn.</summary>
+        /// <summary>Moves the vertices of a wall that gives way or moves to where it is drawn.</summary>
         /// <returns>Whether they differ from before.</returns>
         public bool Follow(WireState state)
         {
-            bool isOther = _drawn.Move(state.Centrelines, state.WallDisplacements);
+            bool isOther = _drawn.Move(state.Centrelines, state.WallDisplacements, state.Fields[_wall]);
             for (int i = 0; i < Vertices.Length && isOther; i++)
             {
                 Vertices[i] = _drawn.Vertices[i].ToUnity();

@@ -22,6 +22,8 @@ namespace Guidewire.Runtime
             _hints = new int[session.Parameters.Scene.Walls.Length * Rod.ElementCount];
             Array.Fill(_hints, -1);
             ContactPoints = new Vector3d[_hints.Length];
+            Fields = Array.ConvertAll(session.Parameters.Scene.Walls,
+                wall => wall.Motion == null ? null : new WallField(wall.Motion));
             _catheters = new CatheterState[run.Catheters().Count];
             for (int k = 0; k < _catheters.Length; k++)
             {
@@ -36,6 +38,9 @@ namespace Guidewire.Runtime
             WallDisplacements = new List<Vector3d[]>(SoftWallDisplacements.Of(run))
                 .ConvertAll(own => new Vector3d[own.Length]).ToArray();
         }
+
+        /// <summary>Where each wall is; null where it stands still.</summary>
+        internal WallField?[] Fields { get; }
 
         /// <summary>Positions, orientations and lengths of the wire; velocities and masses are not copied.</summary>
         public RodState Rod { get; }
@@ -127,6 +132,10 @@ namespace Guidewire.Runtime
             (Time, StepCount, StepTime) = (run.Time, run.StepCount, session.StepTime);
             (Outcome, PredictionError, IsJammed) = (run.Outcome, run.PredictionError, isJammed);
             Reason = run.Outcome == Outcome.Running ? "" : run.Reason;
+            for (int k = 0; k < Fields.Length; k++)
+            {
+                Fields[k] = FollowOf(Fields[k], run.FieldOf(k), Time);
+            }
             ContactRecord? contacts = run.Contacts;
             if (contacts != null)
             {
@@ -175,6 +184,10 @@ namespace Guidewire.Runtime
         {
             Interpolate(older.Rod.Positions, newer.Rod.Positions, t, Rod.Positions);
             Interpolate(older.Rod.Orientations, newer.Rod.Orientations, t, Rod.Orientations);
+            for (int k = 0; k < Fields.Length; k++)
+            {
+                Fields[k] = FollowOf(Fields[k], newer.Fields[k], older.Time + t * (newer.Time - older.Time));
+            }
             Array.Copy(newer.ContactForces, ContactForces, ContactForces.Length);
             for (int k = 0; k < WallDisplacements.Length; k++)
             {
@@ -215,6 +228,13 @@ namespace Guidewire.Runtime
         }
 
         // The nearest wall of each sphere that one acts on.
+        private static WallField? FollowOf(WallField? own, WallField? other, double time)
+        {
+            own = own?.Motion == other?.Motion ? own : other == null ? null : new WallField(other.Motion);
+            own?.Follow(other!, time);
+            return own;
+        }
+
         private void FindContactWalls(ContactShape[] walls)
         {
             for (int i = 0; i < ContactWalls.Length && walls.Length > 1; i++)
@@ -223,7 +243,8 @@ namespace Guidewire.Runtime
                 for (int k = 0; k < walls.Length && ContactForces[i].LengthSquared > 0.0; k++)
                 {
                     int hint = -1;
-                    if (walls[k].Nearest(Rod.Positions[i], Rod.Positions[i], double.PositiveInfinity, ref hint,
+                    Vector3d x = Fields[k]?.AtRest(Rod.Positions[i]) ?? Rod.Positions[i];
+                    if (walls[k].Nearest(x, x, double.PositiveInfinity, ref hint,
                         out SurfaceContact contact) && Math.Abs(contact.Distance) < nearest)
                     {
                         (nearest, ContactWalls[i]) = (Math.Abs(contact.Distance), k);
@@ -239,10 +260,12 @@ namespace Guidewire.Runtime
             {
                 int j = k % Rod.ElementCount;
                 ContactShape wall = parameters.Scene.Walls[k / Rod.ElementCount];
-                if (wall.Nearest(Rod.Positions[j], Rod.Positions[j + 1], range, ref _hints[k],
-                    out SurfaceContact contact))
+                WallField? field = Fields[k / Rod.ElementCount];
+                Vector3d a = field?.AtRest(Rod.Positions[j]) ?? Rod.Positions[j];
+                Vector3d b = field?.AtRest(Rod.Positions[j + 1]) ?? Rod.Positions[j + 1];
+                if (wall.Nearest(a, b, range, ref _hints[k], out SurfaceContact contact))
                 {
-                    ContactPoints[ContactPointCount++] = contact.Point;
+                    ContactPoints[ContactPointCount++] = field?.Moved(contact.Point) ?? contact.Point;
                 }
             }
         }
