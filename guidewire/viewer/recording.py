@@ -396,7 +396,7 @@ def read_recording(run: Run, walls: Sequence[Surface], frames: int, described: M
 def moving_walls(parameters: Mapping[str, Any], walls: Sequence[Surface]) -> dict[int, list[dict[str, Any]]]:
     """Return what pictures draw of walls that move, as of `drawn_cycles`."""
     own = [one for one in (parameters.get("vessel"), *(parameters.get("obstacles") or ())) if one]
-    if not any("motion" in one for one in own):
+    if not walls or not any("motion" in one for one in own):
         return {}
     from guidewire.anatomy.motion import drawn_cycles
 
