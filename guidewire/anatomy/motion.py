@@ -12,7 +12,7 @@ A_k = R_k^T (1/scale across t', 1/stretch along t'), R_k the shortest turn from 
 from __future__ import annotations
 
 import csv
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -269,18 +269,27 @@ def motion_of(parameters: Mapping[str, Any]) -> VesselMotion | None:
     return None if motion is None else VesselMotion(motion, float(parameters["metresPerUnit"]), _place_of(parameters))
 
 
+def motions_of(parameters: Mapping[str, Any]) -> dict[int, VesselMotion]:
+    """Return by the number of a wall that moves, the vessel first where there is one, how it moves."""
+    return {k: VesselMotion(motion, float(parameters["metresPerUnit"]), _place_of(parameters))
+            for k, motion in _moving(parameters)}
+
+
 def drawn_cycles(parameters: Mapping[str, Any], walls: Sequence[np.ndarray], count: int = 32
                  ) -> dict[int, list[dict[str, Any]]]:
     """Return by the number of a wall that moves, the vessel first where there is one, what pictures draw: of each cycle
     by itself the displacements (count, 3 n) of the wall's vertices, its period and the ramp in s, and its phase at time
     0."""
+    return {k: _drawn(motion, float(parameters["metresPerUnit"]), _place_of(parameters), walls[k], count)
+            for k, motion in _moving(parameters)}
+
+
+def _moving(parameters: Mapping[str, Any]) -> Iterator[tuple[int, dict[str, Any]]]:
     own = [one for one in (parameters.get("vessel"), *(parameters.get("obstacles") or ())) if one]
-    drawn = {}
     for k, wall in enumerate(own):
         motion = own[0].get("motion") if wall.get("motion") == "vessel" else wall.get("motion")
         if motion is not None:
-            drawn[k] = _drawn(motion, float(parameters["metresPerUnit"]), _place_of(parameters), walls[k], count)
-    return drawn
+            yield k, motion
 
 
 def _place_of(parameters: Mapping[str, Any]) -> Any:

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 
 import numpy as np
 
+from guidewire.anatomy.motion import motions_of
 from guidewire.figures.render import Instrument, instruments_of
 from guidewire.logs.logs import PositionLog
 from guidewire.logs.runs import PARAMETERS_NAME, Run
@@ -21,7 +23,7 @@ from guidewire.viewer.recording import read_recording
 def walls_of(run: Run, log: PositionLog, middle: np.ndarray, reach: float
              ) -> Iterator[tuple[list[Surface], Callable[[int], list[Surface]] | None]]:
     """Return the walls of a run, as of `Session.walls`, and as they are drawn at an entry of the log; None where they
-    are rigid. Of a run without walls no session is asked.
+    are rigid and stand still. Of a run without walls no session is asked.
 
     Raises
     ------
@@ -32,9 +34,17 @@ def walls_of(run: Run, log: PositionLog, middle: np.ndarray, reach: float
         return
     try:
         with session_of(run.folder / PARAMETERS_NAME) as session:
-            drawn = drawn_of(run, log)
-            yield session.walls(middle, reach), (
-                (lambda k: session.walls(middle, reach, drawn[k])) if soft_walls(run.parameters) else None)
+            drawn, motions = drawn_of(run, log), motions_of(run.parameters)
+            rest = session.walls(middle, reach)
+
+            def at(k: int) -> list[Surface]:
+                walls = session.walls(middle, reach, drawn[k]) if soft_walls(run.parameters) else list(rest)
+                for number, motion in motions.items():
+                    motion.set_time(float(log.time[k]))
+                    walls[number] = replace(walls[number], vertices=motion.moved(walls[number].vertices))
+                return walls
+
+            yield rest, at if motions or soft_walls(run.parameters) else None
     except SessionError as error:
         raise PreparationError(str(error)) from error
 
