@@ -25,14 +25,14 @@ namespace Guidewire.Core
         private readonly List<StrandPassages> _strands = new List<StrandPassages>();   // of the wire, then of catheters
 
         /// <summary>Collects the warnings of a run of these parameters.</summary>
-        /// <param name="stepper">As in <see cref="RimMonitor"/>.</param>
+        /// <param name="stepper">Says what covers the tip, and where walls are, for <see cref="RimMonitor"/>.</param>
         public RunWarnings(SimulationParameters parameters, TimeStepper stepper)
         {
             _parameters = parameters;
             _length = parameters.Scene.GuidewireLength;
             _overlap = new SelfOverlap(parameters);
             _rims = new RimMonitor(Array.ConvertAll(parameters.Scene.Walls,
-                wall => wall.AtLimit(1.0 / parameters.Scene.MetresPerUnit)), stepper);
+                wall => wall.AtLimit(1.0 / parameters.Scene.MetresPerUnit)), stepper.IsTipCovered, stepper.FieldOf);
             MethodTraits method = MethodTable.Of(parameters.Method.Solver);
             _isMaterial = method.TakesMaterial;
             _keepsApart = method.HasBarriers && parameters.Contact.TouchesItself(parameters.Scene.Walls.Length);

@@ -5,6 +5,8 @@ import json
 import numpy as np
 
 from guidewire.anatomy.motion import motion_of
+from guidewire.commands.drawn import walls_of
+from guidewire.logs.logs import read_log
 from guidewire.logs.runs import read_run
 from guidewire.logs.surfaces import Surface
 from guidewire.runs.runner import Request
@@ -43,3 +45,8 @@ def test_the_page_moves_vertices_as_the_motion_does(live, tmp_path):
         # Linear between 32 phases: 1 - cos(pi/32) of the amplitude; cycles are added, turns of one by the other left out.
         np.testing.assert_allclose(doubles(moved).reshape(-1, 3), motion.moved(vertices), atol=0.02)
     assert got["moves"] == 2
+    log = read_log(run.folder, spheres="all")
+    with walls_of(run, log, np.zeros(3), 100.0) as (rest, at):
+        motion.set_time(float(log.time[20]))
+        np.testing.assert_allclose(at(20)[0].vertices, motion.moved(rest[0].vertices), atol=1e-12)
+        assert np.abs(at(20)[0].vertices - rest[0].vertices).max() > 0.1

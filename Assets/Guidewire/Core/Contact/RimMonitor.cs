@@ -1,3 +1,5 @@
+using System;
+
 namespace Guidewire.Core
 {
     /// <summary>Detects when the tip of a wire leaves a vessel by an open rim or end, beyond which no wall is near:
@@ -6,7 +8,8 @@ namespace Guidewire.Core
     internal sealed class RimMonitor
     {
         private readonly ContactShape[] _walls;
-        private readonly TimeStepper _stepper;
+        private readonly Func<ContactShape, WallField?, bool> _isCovered;    // by what is not outside
+        private readonly Func<int, WallField?> _fieldOf;
         private readonly bool[] _isInside;    // the tip, by wall
         private long _passages;
         private bool _hasLeft;
@@ -14,11 +17,12 @@ namespace Guidewire.Core
         private double _time;                 // s
 
         /// <summary>A monitor of these walls; <see cref="Begin"/> says where the tip is.</summary>
-        /// <param name="stepper">Says whether the tip is in a sheath, or in a catheter with its tip within a wall; and
-        /// where walls are that move.</param>
-        public RimMonitor(ContactShape[] walls, TimeStepper stepper)
+        /// <param name="isCovered">Whether the tip is in a sheath, or in a catheter with its tip within a wall.</param>
+        /// <param name="fieldOf">Where a wall is that moves; null where it stands still.</param>
+        public RimMonitor(ContactShape[] walls, Func<ContactShape, WallField?, bool> isCovered,
+            Func<int, WallField?> fieldOf)
         {
-            _stepper = stepper;
+            (_isCovered, _fieldOf) = (isCovered, fieldOf);
             _walls = walls;
             _isInside = new bool[walls.Length];
         }
@@ -47,7 +51,7 @@ namespace Guidewire.Core
             {
                 bool wasInside = _isInside[w];
                 _isInside[w] = IsWithin(w, tip)
-                    || wasInside && _stepper.IsTipCovered(_walls[w], _stepper.FieldOf(w));
+                    || wasInside && _isCovered(_walls[w], _fieldOf(w));
                 if (wasInside && !_isInside[w] && passages == _passages && tip.IsFinite)
                 {
                     _hasLeft = true;
@@ -59,7 +63,7 @@ namespace Guidewire.Core
         }
 
         private bool IsWithin(int w, in Vector3d tip) =>
-            _walls[w].IsWithin(_stepper.FieldOf(w)?.AtRest(tip) ?? tip);
+            _walls[w].IsWithin(_fieldOf(w)?.AtRest(tip) ?? tip);
 
         /// <summary>Writes or restores what was seen.</summary>
         /// <param name="state">Where the wire is.</param>

@@ -168,7 +168,7 @@ namespace Guidewire.Core
             Quaterniond sum = _weights[0] * first;
             for (int i = 1; i < count; i++)
             {
-                sum += _weights[i] * MaterialScene.Aligned(first, _frames[_near[i]].Turn);
+                sum += _weights[i] * Quaterniond.Aligned(first, _frames[_near[i]].Turn);
             }
             return Quaterniond.Normalize(sum);
         }

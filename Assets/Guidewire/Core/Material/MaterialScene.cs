@@ -148,18 +148,11 @@ namespace Guidewire.Core
             Quaterniond before = Shape.ProximalFrame;
             for (int j = 0; j < Shape.ElementCount; j++)
             {
-                before = Aligned(before, Shape.Q[j]);
+                before = Quaterniond.Aligned(before, Shape.Q[j]);
                 Shape.Q[j] = before;
             }
-            Shape.DistalFrame = Aligned(before, Shape.DistalFrame);
+            Shape.DistalFrame = Quaterniond.Aligned(before, Shape.DistalFrame);
             Schedule.Distal.Begin(Shape.DistalFrame);
-        }
-
-        /// <summary>Of the two numbers of an orientation that which goes on from another one.</summary>
-        public static Quaterniond Aligned(in Quaterniond before, in Quaterniond q)
-        {
-            double real = before.X * q.X + before.Y * q.Y + before.Z * q.Z + before.W * q.W;
-            return real < 0.0 ? -1.0 * q : q;
         }
 
         internal static MaterialRod CreateRod(SimulationParameters parameters, double[] lengths)

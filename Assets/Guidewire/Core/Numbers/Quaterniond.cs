@@ -111,6 +111,13 @@ namespace Guidewire.Core
         public static Quaterniond Normalize(in Quaterniond q) =>
             (1.0 / Math.Sqrt(q.X * q.X + q.Y * q.Y + q.Z * q.Z + q.W * q.W)) * q;
 
+        /// <summary>Of the two numbers of an orientation that which goes on from another one.</summary>
+        public static Quaterniond Aligned(in Quaterniond before, in Quaterniond q)
+        {
+            double real = before.X * q.X + before.Y * q.Y + before.Z * q.Z + before.W * q.W;
+            return real < 0.0 ? -1.0 * q : q;
+        }
+
         /// <summary>Gives the turn by <paramref name="angle"/> radians about <paramref name="axis"/>, a unit
         /// vector.</summary>
         public static Quaterniond FromAxisAngle(in Vector3d axis, double angle)

@@ -60,7 +60,7 @@ namespace Guidewire.Core
             }
             Quaterniond before = j == 0 ? shape.ProximalFrame
                 : CoaxialShape.FrameOf(shape, _joints, j - 1, carrier);
-            shape.Q[j] = MaterialScene.Aligned(before, frame);
+            shape.Q[j] = Quaterniond.Aligned(before, frame);
             scene.Spins[j] = _setup.Scenes[carrier].Spins[own];
         }
 

@@ -159,7 +159,7 @@ namespace Guidewire.Core.Tests
                 frame = RodStart.Turned(frame, shape.X[j + 1] - shape.X[j]);
                 shape.Q[j] = frame;
             }
-            shape.DistalFrame = MaterialScene.Aligned(frame, Quaterniond.Identity);
+            shape.DistalFrame = Quaterniond.Aligned(frame, Quaterniond.Identity);
             return shape;
         }
 
