@@ -27,13 +27,13 @@ namespace Guidewire.Cli
             {
                 if (member.Value.Type != JTokenType.Null)
                 {
-                    Take(view, member.Name, member.Value);
+                    SetField(view, member.Name, member.Value);
                 }
             }
             return view;
         }
 
-        private static void Take(PictureView view, string name, JToken value)
+        private static void SetField(PictureView view, string name, JToken value)
         {
             FluoroscopySettings settings = view.Settings;
             switch (name)

@@ -81,7 +81,7 @@ namespace Guidewire.Cli
 
         private void Begin(SimulationSession session)
         {
-            _moment.Take(session.Simulation);
+            _moment.GoTo(session.Simulation);
             _fields.Clear();
             Count = 0;
         }

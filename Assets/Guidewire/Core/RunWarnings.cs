@@ -158,21 +158,21 @@ namespace Guidewire.Core
 
         private void TakeOverlap(RodState state, CoaxialRecord? coaxial, double time)
         {
-            _overlap.Take(0, state.Positions, time);
+            _overlap.Update(0, state.Positions, time);
             int k = 1;
             for (CoaxialRecord? one = coaxial; one != null; one = one.Inside)
             {
-                _overlap.Take(k++, one.Positions, time);
+                _overlap.Update(k++, one.Positions, time);
             }
         }
 
         private void TakeStrands(RodState state, CoaxialRecord? coaxial, bool isLast)
         {
-            _strands[0].Take(state.Positions, _keepsApart, isLast);
+            _strands[0].Update(state.Positions, _keepsApart, isLast);
             int k = 1;
             for (CoaxialRecord? one = coaxial; one != null; one = one.Inside)
             {
-                _strands[k++].Take(one.Positions, _keepsApart, isLast);
+                _strands[k++].Update(one.Positions, _keepsApart, isLast);
             }
         }
 

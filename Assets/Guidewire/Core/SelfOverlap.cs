@@ -57,7 +57,7 @@ namespace Guidewire.Core
         /// <param name="instrument">0 the wire, k catheter k - 1.</param>
         /// <param name="x">Its nodes, units.</param>
         /// <param name="time">s.</param>
-        public void Take(int instrument, Vector3d[] x, double time)
+        public void Update(int instrument, Vector3d[] x, double time)
         {
             double[] station = _station[instrument];
             double[] radius = _radius[instrument];

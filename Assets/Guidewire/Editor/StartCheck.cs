@@ -98,7 +98,7 @@ namespace Guidewire.Editor
                 Parameters = session.Parameters;
                 Target = session.Target;
                 Start = new WireState(session);
-                Start.Take(session, false, false);
+                Start.CopyFrom(session, false, false);
                 for (int k = 0; k < session.InstrumentCount; k++)
                 {
                     Instruments.Add((session.NameOf(k), session.ChoicesOf(k)));

@@ -118,7 +118,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>Takes over what another record holds, its spheres moved on by an offset.</summary>
-        internal void Take(ContactRecord other, int offset)
+        internal void CopyFrom(ContactRecord other, int offset)
         {
             Passages = other.Passages;
             MaxPenetration = other.MaxPenetration;

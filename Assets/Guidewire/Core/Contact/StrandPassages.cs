@@ -38,7 +38,7 @@ namespace Guidewire.Core
         /// <summary>Takes where the nodes are.</summary>
         /// <param name="keepsApart">Whether the method keeps strands apart.</param>
         /// <param name="isLast">Whether a look is due, however little they have moved.</param>
-        public void Take(Vector3d[] x, bool keepsApart = false, bool isLast = false)
+        public void Update(Vector3d[] x, bool keepsApart = false, bool isLast = false)
         {
             int n = _from.Length - 1;
             double moved = 0.0;

@@ -119,10 +119,10 @@ namespace Guidewire.Core
             double[] stations = Stations(tube);
             double proximal = StationOf(tube, stations, wire[0], out double atProximal);
             double tip = StationOf(tube, stations, wire[wire.Length - 1], out double atTip);
-            Take(atTip, wire[wire.Length - 1]);
+            RecordWidth(atTip, wire[wire.Length - 1]);
             if (atTip < _radius || atProximal < _radius)
             {
-                Take(Math.Min(atTip, atProximal), atTip <= atProximal ? wire[wire.Length - 1] : wire[0]);
+                RecordWidth(Math.Min(atTip, atProximal), atTip <= atProximal ? wire[wire.Length - 1] : wire[0]);
                 return true;
             }
             bool forward = tip >= proximal;
@@ -135,7 +135,7 @@ namespace Guidewire.Core
                 if (tube.Radii[i] < _radius && stations[i] > from && stations[i] < to
                     && ContinuesNarrow(tube, i, forward))
                 {
-                    Take(tube.Radii[i], tube.Knots[i]);
+                    RecordWidth(tube.Radii[i], tube.Knots[i]);
                     return true;
                 }
             }
@@ -155,7 +155,7 @@ namespace Guidewire.Core
             return isOpen || hasWidened;
         }
 
-        private void Take(double width, in Vector3d centre)
+        private void RecordWidth(double width, in Vector3d centre)
         {
             Width = width;
             Centre = centre;

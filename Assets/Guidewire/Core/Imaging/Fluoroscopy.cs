@@ -117,7 +117,7 @@ namespace Guidewire.Core
                 Array.Clear(_thickness, 0, _thickness.Length);
                 for (int i = 0; i < _lumens.Length; i++)
                 {
-                    _lumens[i].Take(_moved[i]);
+                    _lumens[i].MoveVertices(_moved[i]);
                     _lumens[i].Add(arm, _thickness);
                 }
                 _arm = arm;

@@ -28,7 +28,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>Takes where its vertices are, if they were moved; the middles of rims stay.</summary>
-        public void Take(Vector3d[]? vertices) => vertices?.CopyTo(_vertices, 0);
+        public void MoveVertices(Vector3d[]? vertices) => vertices?.CopyTo(_vertices, 0);
 
         /// <summary>Adds the vessel's thickness to that of others, in pixels' sides.</summary>
         /// <param name="arm">Where it is seen from.</param>

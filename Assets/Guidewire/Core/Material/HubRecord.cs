@@ -64,7 +64,7 @@ namespace Guidewire.Core
         /// <param name="force">Of the supports on node 0, N.</param>
         /// <param name="torque">Of the hub about its axis, N m.</param>
         /// <param name="ahead">How far the hub is ahead of the frame of joint 0, radians.</param>
-        internal void Take(RodTerms terms, RodShape shape, MaterialDrive drive, in Vector3d force, double torque,
+        internal void Record(RodTerms terms, RodShape shape, MaterialDrive drive, in Vector3d force, double torque,
             double ahead)
         {
             terms.Bending.Measure(shape, _turns);
@@ -80,12 +80,12 @@ namespace Guidewire.Core
                     : Math.Max(largest, bend / (fraction * _jointLength[k]));
             }
             double along = Vector3d.Dot(force, terms.HubAxis(shape));
-            Take(drive, along + terms.SheathForce(shape), torque, shape.Q[shape.ElementCount - 1].Director3, twist,
+            Record(drive, along + terms.SheathForce(shape), torque, shape.Q[shape.ElementCount - 1].Director3, twist,
                 largest);
         }
 
         /// <summary>Takes what is known of it otherwise.</summary>
-        internal void Take(MaterialDrive drive, double force, double torque, in Vector3d tipDirection, double twist,
+        internal void Record(MaterialDrive drive, double force, double torque, in Vector3d tipDirection, double twist,
             double largestCurvature)
         {
             Insertion = drive.Insertion;

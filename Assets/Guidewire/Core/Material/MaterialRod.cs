@@ -148,7 +148,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>Makes element j that of another rod.</summary>
-        public void Take(int j, MaterialRod other, int element)
+        public void CopyElement(int j, MaterialRod other, int element)
         {
             Length[j] = other.Length[element];
             StretchStiffness[j] = other.StretchStiffness[element];

@@ -103,9 +103,9 @@ namespace Guidewire.Core
         public RodSchedule Schedule { get; }
 
         /// <summary>Takes where the rod is from a start; its hub holds it as that is turned.</summary>
-        public void Take(RodStart start)
+        public void StartFrom(RodStart start)
         {
-            _scene.Take(start);
+            _scene.StartFrom(start);
             Shape.ProximalFrame = Schedule.Hub.FrameTurned(Schedule.Hub.TurnAt(0.0));
             AlignTurns();
             Joints.Begin(Shape, 0.0);

@@ -172,11 +172,11 @@ namespace Guidewire.Core
         {
             if (terms.Fibres != null)
             {
-                Take(terms.Fibres, shape, time);
+                RecordFibres(terms.Fibres, shape, time);
             }
         }
 
-        private void Take(FibreBending fibres, RodShape shape, double time)
+        private void RecordFibres(FibreBending fibres, RodShape shape, double time)
         {
             MaterialLoss = fibres.Loss;
             CoreShare = Larger(CoreShare, 0.0);

@@ -31,7 +31,7 @@ namespace Guidewire.Core
         /// <param name="slipped">Whether it went another way than it was asked, at its limit.</param>
         /// <param name="force">N.</param>
         /// <param name="time">s.</param>
-        public void Take(bool slipped, double force, double time)
+        public void Record(bool slipped, double force, double time)
         {
             bool isBeyond = Math.Abs(force) > (1.0 + Exact) * _limit.Of(force);
             if ((slipped || isBeyond) && double.IsNaN(_first))

@@ -61,7 +61,7 @@ namespace Guidewire.Core
         /// <param name="axis">Of the sheath, a unit vector.</param>
         /// <param name="thrust">Force of the hub along the axis, N.</param>
         /// <param name="torque">Torque of the wire on the sheathed part about it, N m.</param>
-        internal void Take(StressRecord outside, MaterialRod rod, int first, in Vector3d axis, double thrust,
+        internal void Record(StressRecord outside, MaterialRod rod, int first, in Vector3d axis, double thrust,
             double torque)
         {
             int n = rod.ElementCount - first;
@@ -116,7 +116,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>Takes the wire as it is.</summary>
-        internal void Take(RodTerms terms, RodShape shape, double kineticEnergy)
+        internal void Record(RodTerms terms, RodShape shape, double kineticEnergy)
         {
             int n = shape.ElementCount;
             terms.Bending.Measure(shape, Curvature);

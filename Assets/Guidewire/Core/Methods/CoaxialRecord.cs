@@ -292,7 +292,7 @@ namespace Guidewire.Core
         /// <summary>Takes the state of a moment.</summary>
         /// <param name="own">Where the catheter is: its own nodes and elements.</param>
         /// <param name="inside">Sum of the forces of the hubs of all instruments inside, without friction, N.</param>
-        internal void Take(CoaxialJoints joints, RodTerms terms, RodShape shape, RodShape own, MaterialDrive drive,
+        internal void Record(CoaxialJoints joints, RodTerms terms, RodShape shape, RodShape own, MaterialDrive drive,
             MaterialDrive wireDrive, double torque, double wireTorque, double inside)
         {
             for (int i = 0; i < Positions.Length; i++)

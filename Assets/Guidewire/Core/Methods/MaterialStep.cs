@@ -78,7 +78,7 @@ namespace Guidewire.Core
         {
             _stress ??= new StressRecord(Scene.Rod.JointLengths(Scene.Supports));
             Terms.SetTime(Schedule, Time);
-            _stress.Take(Terms, Shape, KineticEnergy);
+            _stress.Record(Terms, Shape, KineticEnergy);
             return _stress;
         }
 

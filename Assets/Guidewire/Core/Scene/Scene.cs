@@ -111,14 +111,14 @@ namespace Guidewire.Core
             }
             if (scene.Start != null && scene.Start.Hub == null)
             {
-                Take(scene.Start);
+                StartFrom(scene.Start);
                 IsReached = scene.Start.IsReached;
                 ExitOfSheath = scene.Start.ExitOfSheath;
             }
         }
 
         /// <summary>Takes where the wire is from a start.</summary>
-        public void Take(RodStart start)
+        public void StartFrom(RodStart start)
         {
             if (start.Orientations.Length != Shape.ElementCount)
             {

@@ -58,7 +58,7 @@ namespace Guidewire.Io
             {
                 if (!given.Has(key))
                 {
-                    given.Take(key, keys[key]!, path);
+                    given.Add(key, keys[key]!, path);
                 }
             }
             foreach (string key in Array.FindAll(WireKeys, key => TakesKey(given, key)))
@@ -66,7 +66,7 @@ namespace Guidewire.Io
                 string? other = Array.Find(Alternatives, pair => pair.Own == key).Other;
                 if (!Stands(given, key, replacesFile) && (other == null || !Stands(given, other, replacesFile)))
                 {
-                    given.Take(key, keys[key]!, path);
+                    given.Add(key, keys[key]!, path);
                     given.Remove(other ?? "");
                 }
             }
@@ -134,7 +134,7 @@ namespace Guidewire.Io
             {
                 if (given.TryGet(key, out (JToken Value, string Source) said))
                 {
-                    given.Take(key, said.Value.DeepClone(), said.Source);
+                    given.Add(key, said.Value.DeepClone(), said.Source);
                 }
             }
             foreach (JObject wall in Walls(given))

@@ -25,7 +25,7 @@ namespace Guidewire.Io
 
         /// <summary>Takes what is said of a key or of a part of one; the later word counts. A key that is not known is
         /// kept for <see cref="RefuseUnknown"/>.</summary>
-        public void Take(string text, JToken value, string source)
+        public void Add(string text, JToken value, string source)
         {
             if (ParameterTable.Former.ContainsKey(text))
             {

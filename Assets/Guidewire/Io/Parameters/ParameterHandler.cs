@@ -75,7 +75,7 @@ namespace Guidewire.Io
                 content.Remove(FileFormat.Key);
                 foreach (JProperty property in content.Properties())
                 {
-                    handler._given.Take(property.Name, property.Value, file!);
+                    handler._given.Add(property.Name, property.Value, file!);
                 }
             }
             foreach (KeyValuePair<string, JToken> pair in overrides)
@@ -94,7 +94,7 @@ namespace Guidewire.Io
                 {
                     handler._given.Remove(length);
                 }
-                handler._given.Take(pair.Key, pair.Value, from.OverridesFrom);
+                handler._given.Add(pair.Key, pair.Value, from.OverridesFrom);
                 WireStiffness.Replace(handler._given, pair.Key, file);
             }
             handler._given.RefuseUnknown();
@@ -113,7 +113,7 @@ namespace Guidewire.Io
             var handler = new ParameterHandler(ParameterSource.OfFile(null));
             foreach ((string key, JToken value, string source) in values)
             {
-                handler._given.Take(key, value, source);
+                handler._given.Add(key, value, source);
             }
             handler._given.RefuseUnknown();
             InstrumentLayer.Expand(handler._given, handler._given.SourceOf(InstrumentLayer.Key), held);

@@ -73,7 +73,7 @@ namespace Guidewire.Io
         public override void Log(Simulation simulation, double elapsed)
         {
             int first = _parameters.LogSpheres == LoggedSpheres.Last ? simulation.State.ElementCount : 0;
-            _moment.Take(simulation, elapsed, first);
+            _moment.GoTo(simulation, elapsed, first);
             if (_count == 0)
             {
                 Begin();

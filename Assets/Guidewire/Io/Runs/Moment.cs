@@ -49,7 +49,7 @@ namespace Guidewire.Io
         public int FirstSphere { get; private set; }
 
         /// <summary>Goes on to a state; what was read of another one is no longer valid.</summary>
-        public void Take(Simulation simulation, double elapsed = 0.0, int firstSphere = 0)
+        public void GoTo(Simulation simulation, double elapsed = 0.0, int firstSphere = 0)
         {
             _simulation = simulation;
             _stress = null;

@@ -34,7 +34,7 @@ namespace Guidewire.Io
             double wallTime, int? repeat, string? log, IReadOnlyList<string> notes, TargetRecord? target)
         {
             var moment = new Moment();
-            moment.Take(simulation);
+            moment.GoTo(simulation);
             var json = new JObject
             {
                 ["outcome"] = Word(simulation.Outcome),

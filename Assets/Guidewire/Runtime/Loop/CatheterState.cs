@@ -24,7 +24,7 @@ namespace Guidewire.Runtime
         /// <summary>Length over which the next instrument is in it, m.</summary>
         public double Overlap { get; internal set; }
 
-        internal void Take(CoaxialRecord record)
+        internal void CopyFrom(CoaxialRecord record)
         {
             Array.Copy(record.Positions, Positions, Positions.Length);
             Array.Copy(record.Orientations, Orientations, Orientations.Length);

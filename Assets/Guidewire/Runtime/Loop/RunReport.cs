@@ -36,7 +36,7 @@ namespace Guidewire.Runtime
 
         /// <summary>Takes a state.</summary>
         /// <returns>Whether the run has ended with it.</returns>
-        public bool Take(WireState state)
+        public bool Update(WireState state)
         {
             if (state.Outcome == _reported)
             {

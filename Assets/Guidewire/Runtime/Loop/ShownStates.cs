@@ -19,7 +19,7 @@ namespace Guidewire.Runtime
             Shown = new WireState(session);
             foreach (WireState state in new[] { _older, _newer, Shown })
             {
-                state.Take(session, false, false);
+                state.CopyFrom(session, false, false);
             }
             _time = _newer.Time;
         }
@@ -32,9 +32,9 @@ namespace Guidewire.Runtime
 
         /// <summary>Takes the newest state.</summary>
         /// <returns>False where there is none since the last.</returns>
-        public bool Take(StateExchange exchange)
+        public bool TakeNewest(StateExchange exchange)
         {
-            if (!exchange.Take(ref _older))
+            if (!exchange.TakeNewest(ref _older))
             {
                 return false;
             }

@@ -272,7 +272,7 @@ namespace Guidewire.Runtime
                 _budget.Work(_run, Stepping == SteppingMode.FixedSteps ? int.MaxValue : _stepsPerFrame,
                     Stepping == SteppingMode.FixedSteps ? double.PositiveInfinity : _frameBudget);
             }
-            Take();
+            TakeNewest();
             if (_opened != null)
             {
                 _speed.Ask(asked, _pace, _opened.Newest.Time);    // over a second
@@ -409,7 +409,7 @@ namespace Guidewire.Runtime
                 while (_run.IsAskedAtOnce && _run.Work())
                 {
                 }
-                Take();
+                TakeNewest();
                 _opened?.Show(double.PositiveInfinity);
             }
         }
@@ -417,7 +417,7 @@ namespace Guidewire.Runtime
         private bool CanStep() => _opened != null && Problem.Length == 0 && _opened.Newest.Outcome == Outcome.Running;
 
         // Takes over what has been made since the last time.
-        private void Take()
+        private void TakeNewest()
         {
             if (_run == null)
             {
@@ -437,7 +437,7 @@ namespace Guidewire.Runtime
                 Generation += _opened == null ? 1 : 0;
                 _report.Stop(_run.Failure);
             }
-            if (_run.Take())
+            if (_run.TakeNewest())
             {
                 _contacts.Update(this, State!, ContactBegan, ContactEnded);
                 if (State!.IsAtTarget && !_wasAtTarget)
@@ -446,7 +446,7 @@ namespace Guidewire.Runtime
                     TargetReached?.Invoke(transform.TransformPoint(tip));
                 }
                 _wasAtTarget = State.IsAtTarget;
-                if (_report.Take(State))
+                if (_report.Update(State))
                 {
                     Ended?.Invoke(State.Outcome, State.Reason);
                 }

@@ -25,7 +25,7 @@ namespace Guidewire.Runtime
         /// <summary>Takes the newest state.</summary>
         /// <param name="mine">The oldest that is no longer needed; then the newest.</param>
         /// <returns>False where there is none since the last.</returns>
-        public bool Take(ref WireState mine)
+        public bool TakeNewest(ref WireState mine)
         {
             if (!Volatile.Read(ref _between).IsNew)
             {

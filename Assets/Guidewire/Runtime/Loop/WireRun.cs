@@ -162,7 +162,7 @@ namespace Guidewire.Runtime
 
         /// <summary>Takes the newest state.</summary>
         /// <returns>False where there is none since the last.</returns>
-        public bool Take() => _opened != null && _opened.Take(_exchange!);
+        public bool TakeNewest() => _opened != null && _opened.TakeNewest(_exchange!);
 
         /// <summary>Does one piece of work.</summary>
         /// <returns>False where there is nothing to do until the host asks for more.</returns>
@@ -355,7 +355,7 @@ namespace Guidewire.Runtime
             {
                 wantsPoints = _wantsPoints;
             }
-            _mine!.Take(session, isJammed, wantsPoints);
+            _mine!.CopyFrom(session, isJammed, wantsPoints);
             _exchange!.Publish(ref _mine);
         }
     }

@@ -124,7 +124,7 @@ namespace Guidewire.Runtime
         /// <summary>Copies a run as it is.</summary>
         /// <param name="isJammed">Whether its last step lost most of what was asked.</param>
         /// <param name="withPoints">Whether the points of contact are wanted too.</param>
-        internal void Take(SimulationSession session, bool isJammed, bool withPoints)
+        internal void CopyFrom(SimulationSession session, bool isJammed, bool withPoints)
         {
             Simulation run = session.Simulation;
             Array.Copy(run.State.Positions, Rod.Positions, Rod.SphereCount);
@@ -146,7 +146,7 @@ namespace Guidewire.Runtime
             IReadOnlyList<CoaxialRecord> catheters = run.Catheters();
             for (int k = 0; k < _catheters.Length; k++)
             {
-                _catheters[k].Take(catheters[k]);
+                _catheters[k].CopyFrom(catheters[k]);
             }
             if (WallDisplacements.Length > 0)
             {

@@ -264,7 +264,7 @@ namespace Guidewire.Core
 
         /// <summary>Takes the directions of the loads.</summary>
         /// <returns>The largest change of what an element is longer by, m.</returns>
-        public double Take(RodShape shape)
+        public double UpdateDirections(RodShape shape)
         {
             Array.Clear(_force, 0, N);
             Array.Clear(_strain, 0, N);

@@ -50,7 +50,7 @@ namespace Guidewire.Core
             Rod.ElementCount = Joints.ElementCount;
             for (int j = 0; j < Joints.ElementCount; j++)
             {
-                Rod.Take(j, Carrier(j), OwnElement(j));
+                Rod.CopyElement(j, Carrier(j), OwnElement(j));
             }
             SetHubs(leads, sheathed);
             SetMass();
@@ -119,7 +119,7 @@ namespace Guidewire.Core
         /// <returns>The largest change of what an element is longer by, m.</returns>
         public double TakeLoads(RodShape shape)
         {
-            double change = Axial.Take(shape);
+            double change = Axial.UpdateDirections(shape);
             SetLengths();
             return change;
         }

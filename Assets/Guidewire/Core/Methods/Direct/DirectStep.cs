@@ -85,7 +85,7 @@ namespace Guidewire.Core
             (SteadyState, PredictionError) = (Rod.SteadyState, Rod.PredictionError);
             if (isDone)
             {
-                Take();
+                RecordStep();
                 Write(state);
             }
             else
@@ -128,7 +128,7 @@ namespace Guidewire.Core
         protected virtual double BeginPart(double left) => left;
 
         /// <summary>Takes what a step has come to.</summary>
-        protected virtual void Take()
+        protected virtual void RecordStep()
         {
         }
     }

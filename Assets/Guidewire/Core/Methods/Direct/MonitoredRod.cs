@@ -280,7 +280,7 @@ namespace Guidewire.Core
                 _hubWork += Terms.HubForce(Shape) * (Drive.Insertion - asked);
                 _hasSlipped = true;
             }
-            _slips.Take(_hasSlipped, Terms.HubForce(Shape), Time);
+            _slips.Record(_hasSlipped, Terms.HubForce(Shape), Time);
         }
 
         // Of the hub in this step against what drives the wire out of a sheath, by the moments of now, J.
@@ -304,7 +304,7 @@ namespace Guidewire.Core
 
         private void TakeExtremes(double length)
         {
-            _spinLoss?.Take(Terms.Rod, Shape, Spins, length,
+            _spinLoss?.AddSteps(Terms.Rod, Shape, Spins, length,
                 Math.Max(1, _dynamics.Control.Steps - _innerSteps));
             _extremes.TakeShape(Terms, _joints, _jointLengths, Shape, Time);
             _extremes.TakeFibres(Terms, Shape, Time);
@@ -312,7 +312,7 @@ namespace Guidewire.Core
             {
                 return;
             }
-            _elementForces.Take(Shape, Contacts!, _extremes, Time);
+            _elementForces.Record(Shape, Contacts!, _extremes, Time);
             if (Terms.Walls()!.HoldsStart)
             {
                 _extremes.TakeHub(Terms.HubForce(Shape), _dynamics.Reactions.HubTorque, Time, Drag);
@@ -357,7 +357,7 @@ namespace Guidewire.Core
             Vector3d force = _slips != null && (_hasSlipped || !Terms.Walls()!.Spring.Limit.IsOfHand)
                 ? Terms.Walls()!.SupportForce(Shape)
                 : _dynamics.ReactionAt(0);
-            _hub.Take(Terms, Shape, Drive, force, _dynamics.Reactions.HubTorque,
+            _hub.Record(Terms, Shape, Drive, force, _dynamics.Reactions.HubTorque,
                 Schedule.Hub.AheadAt(Time));
             _hub.SlippedFrom = _slips?.SlippedFrom ?? double.NaN;
             _hub.Work = _monitor == null ? double.NaN : _hubWork;
@@ -404,7 +404,7 @@ namespace Guidewire.Core
         {
             _stress ??= new StressRecord(_jointLengths);
             Terms.SetTime(Schedule, Time);
-            _stress.Take(Terms, Shape, Terms.Mass.KineticEnergy(Velocities, Spins));
+            _stress.Record(Terms, Shape, Terms.Mass.KineticEnergy(Velocities, Spins));
             _stress.TakeEnergies(_stress.KineticEnergy, _stress.ElasticEnergy, _stress.PotentialEnergy + _outside);
             return _stress;
         }

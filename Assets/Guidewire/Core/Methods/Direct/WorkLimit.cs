@@ -54,7 +54,7 @@ namespace Guidewire.Core
         public void Count() => _isCounted = true;
 
         /// <summary>Takes iterations that were made.</summary>
-        public void Take(long iterations) => _left -= _isCounted ? iterations : 0;
+        public void Spend(long iterations) => _left -= _isCounted ? iterations : 0;
 
         /// <summary>Writes or restores what is left.</summary>
         public void Serialize(Snapshot snapshot) => snapshot.Serialize(ref _left);

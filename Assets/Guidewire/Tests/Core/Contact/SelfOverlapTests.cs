@@ -20,7 +20,7 @@ namespace Guidewire.Core.Tests
             double radius = 8.0;
             double pitch = pitchInDiameters * diameter;
             double turn = Math.Sqrt(Math.Pow(2.0 * Math.PI * radius, 2.0) + pitch * pitch);
-            monitor.Take(0, Curve(s => new Vector3d(radius * Math.Cos(2.0 * Math.PI * s / turn),
+            monitor.Update(0, Curve(s => new Vector3d(radius * Math.Cos(2.0 * Math.PI * s / turn),
                 radius * Math.Sin(2.0 * Math.PI * s / turn), pitch * s / turn)), 0.5);
             Assert.That(monitor.Warning.HasValue, Is.EqualTo(overlaps), monitor.Warning?.Text);
             if (overlaps)
@@ -41,7 +41,7 @@ namespace Guidewire.Core.Tests
             double r = radiusInDiameters * diameter;
             double arc = Math.PI * r;
             double from = 0.5 * (Length - arc);
-            monitor.Take(0, Curve(s => s < from ? new Vector3d(0.0, -r, s - from)
+            monitor.Update(0, Curve(s => s < from ? new Vector3d(0.0, -r, s - from)
                 : s < from + arc ? new Vector3d(0.0, -r * Math.Cos((s - from) / r), r * Math.Sin((s - from) / r))
                 : new Vector3d(0.0, r, from + arc - s)), 0.5);
             Assert.That(monitor.Warning, Is.Null);
@@ -52,7 +52,7 @@ namespace Guidewire.Core.Tests
         {
             SelfOverlap monitor = Monitor(out double diameter);
             // Two straight legs that cross at 90 mm from either end.
-            monitor.Take(0, Curve(s => s < 0.5 * Length ? new Vector3d(0.0, 0.4 * (s - 90.0), 0.9 * s)
+            monitor.Update(0, Curve(s => s < 0.5 * Length ? new Vector3d(0.0, 0.4 * (s - 90.0), 0.9 * s)
                 : new Vector3d(0.4 * diameter, 0.4 * (Length - s - 90.0) * -1.0, 0.9 * (Length - s))), 1.25);
             Assert.That(monitor.Warning!.Value.Text, Does.Contain("t = 1.25 s").And.Contain("at 90 and 150 units")
                 .And.Contain(" are 0.4 of a diameter"));
@@ -63,7 +63,7 @@ namespace Guidewire.Core.Tests
         {
             SelfOverlap monitor = Monitor(out _);
             double r = Length / (2.0 * Math.PI);
-            monitor.Take(0, Curve(s => new Vector3d(0.0, r * Math.Cos(s / r), r * Math.Sin(s / r))), 0.5);
+            monitor.Update(0, Curve(s => new Vector3d(0.0, r * Math.Cos(s / r), r * Math.Sin(s / r))), 0.5);
             Assert.That(monitor.Warning, Is.Null);
         }
 

@@ -14,9 +14,9 @@ namespace Guidewire.Core.Tests
             var passages = new StrandPassages(0.05, x);
             for (int step = 1; step <= steps; step++)
             {
-                passages.Take(Loop(across, 0.5 - 1.0 * step / steps));
+                passages.Update(Loop(across, 0.5 - 1.0 * step / steps));
             }
-            passages.Take(Loop(across, -0.5), isLast: true);
+            passages.Update(Loop(across, -0.5), isLast: true);
             Assert.That(passages.Total, Is.EqualTo(expected));
         }
 
@@ -24,10 +24,10 @@ namespace Guidewire.Core.Tests
         public void ThereAndBackWithinALook_IsNoPassage_AndEachWayIsOne()
         {
             var passages = new StrandPassages(0.05, Loop(0.3, 0.5));
-            passages.Take(Loop(0.3, 0.51));
+            passages.Update(Loop(0.3, 0.51));
             Assert.That(passages.Total, Is.Zero);
-            passages.Take(Loop(0.3, -0.5));
-            passages.Take(Loop(0.3, 0.5));
+            passages.Update(Loop(0.3, -0.5));
+            passages.Update(Loop(0.3, 0.5));
             Assert.That(passages.Total, Is.EqualTo(2));
         }
 
@@ -48,7 +48,7 @@ namespace Guidewire.Core.Tests
             var passages = new StrandPassages(0.05, At(0.0));
             for (int step = 1; step <= 40; step++)
             {
-                passages.Take(At(0.5 * step), isLast: true);
+                passages.Update(At(0.5 * step), isLast: true);
             }
             Assert.That(passages.Total, Is.Zero);
         }

@@ -37,7 +37,7 @@ namespace Guidewire.Core
 
         /// <summary>Takes a moment, at the time that was set last.</summary>
         /// <param name="instruments">The outermost one first.</param>
-        public CoaxialRecord Take(RodDynamics dynamics, CoaxialJoints joints, InnerInstrument[] instruments)
+        public CoaxialRecord Record(RodDynamics dynamics, CoaxialJoints joints, InnerInstrument[] instruments)
         {
             RodTerms terms = dynamics.Terms;
             RodShape shape = dynamics.Shape;
@@ -56,13 +56,13 @@ namespace Guidewire.Core
                 torque -= own;
                 if (i < wire)
                 {
-                    _records[i].Take(joints, terms, shape, instruments[i].Shape, _drives[i], _drives[wire], own,
+                    _records[i].Record(joints, terms, shape, instruments[i].Shape, _drives[i], _drives[wire], own,
                         wireTorque, inside);
                 }
                 inside += _forces[i];
             }
             _forces[0] += terms.SheathForce(shape);
-            _records[0].Take(joints, terms, shape, instruments[0].Shape, _drives[0], _drives[wire], torque, wireTorque,
+            _records[0].Record(joints, terms, shape, instruments[0].Shape, _drives[0], _drives[wire], torque, wireTorque,
                 inside);
             double around = 0.0;
             double wireForce = _forces[wire] + _records[wire - 1].FrictionForce;

@@ -195,7 +195,7 @@ namespace Guidewire.Core
             var counts = new Snapshot();
             former.Whole.SerializeCounts(counts);
             Whole.SerializeCounts(counts.ToRead());
-            Whole.Contacts?.Take(former.Whole.Contacts!, Rod.Rod.ElementCount + 1);
+            Whole.Contacts?.CopyFrom(former.Whole.Contacts!, Rod.Rod.ElementCount + 1);
         }
 
         /// <summary>Writes or restores what says which elements there are.</summary>
@@ -342,7 +342,7 @@ namespace Guidewire.Core
             Rod.Axial.TakeBorne(from.Rod.Axial);
             Rod.Remesh(_nodes.Beyond, _leads, _sheathed, first);
             _change.Begin(joints, isOther, shift);
-            _change.Take(motion, Dynamics.Motion);
+            _change.Convert(motion, Dynamics.Motion);
             if (_hasWindow)
             {
                 // With the lengths that loads give them.
@@ -392,7 +392,7 @@ namespace Guidewire.Core
             if (former != null)
             {
                 terms.Walls()!.Barrier.FollowElements(entered);
-                terms.Walls()!.Take(former, _change.Node, Rod.Joints.ElementCount);
+                terms.Walls()!.CarryOver(former, _change.Node, Rod.Joints.ElementCount);
             }
             Dynamics.Remesh();
             Dynamics.ResumeAt(time, turn);

@@ -78,7 +78,7 @@ namespace Guidewire.Core
 
         /// <summary>The shape with these nodes: what comes in lies on the element that it divides, or on the axis of
         /// the last one.</summary>
-        public void Take(RodShape old, RodShape shape)
+        public void Convert(RodShape old, RodShape shape)
         {
             int n = Joints.ElementCount;
             shape.ElementCount = n;
@@ -103,10 +103,10 @@ namespace Guidewire.Core
 
         /// <summary>Takes a motion, with its shape: what comes in moves with the node before it and the element that
         /// it divides; where a tip inside comes in, it turns as it does before.</summary>
-        public void Take(RodMotion was, RodMotion motion)
+        public void Convert(RodMotion was, RodMotion motion)
         {
             RodShape old = was.Shape;
-            Take(old, motion.Shape);
+            Convert(old, motion.Shape);
             int n = Joints.ElementCount;
             int from = 0;
             for (int k = 0; k <= n; k++)

@@ -85,7 +85,7 @@ namespace Guidewire.Core
             Chain.TakeTime();
             Wire.TakeForces(Dynamics.Terms, Dynamics.Shape);
             _stress ??= new StressRecord(Setup.Wire.Rod.JointLengths(Setup.Wire.Supports));
-            _stress.Take(Rod.Stress(), Setup.Wire.Rod, Chain.Rod.Joints.First, Setup.Axis, Wire.Thrust, Wire.Torque);
+            _stress.Record(Rod.Stress(), Setup.Wire.Rod, Chain.Rod.Joints.First, Setup.Axis, Wire.Thrust, Wire.Torque);
             _stress.TakeFibres(Dynamics.Terms, Dynamics.Shape, 0);
             return _stress;
         }
@@ -145,7 +145,7 @@ namespace Guidewire.Core
         protected override double BeginPart(double left) => Chain.BeginPart(left);
 
         /// <inheritdoc/>
-        protected override void Take()
+        protected override void RecordStep()
         {
             TakeMoment();
             Chain.TakeBorne();
@@ -161,10 +161,10 @@ namespace Guidewire.Core
         /// <summary>Takes the shape of each and the forces of walls on it.</summary>
         protected virtual void TakeShapes()
         {
-            Wire.Take(Dynamics, Chain.Rod.Joints);
+            Wire.UpdateFrom(Dynamics, Chain.Rod.Joints);
             if (_contacts != null)
             {
-                _contacts.Take(Rod.Contacts!, Chain.Rod.Joints.First);
+                _contacts.CopyFrom(Rod.Contacts!, Chain.Rod.Joints.First);
                 TakeWalls(Drives.Length - 1, _contacts.Forces, _contacts.Displacements);
             }
         }

@@ -168,7 +168,7 @@ namespace Guidewire.Core
             {
                 if (HasStart)
                 {
-                    new StartedChain(this, hubs, scene.Supports.Coaxial!.Joints).Take(scene);
+                    new StartedChain(this, hubs, scene.Supports.Coaxial!.Joints).SetFrom(scene);
                 }
                 return;
             }
@@ -325,7 +325,7 @@ namespace Guidewire.Core
                     throw new ArgumentException("the start has no hub of each instrument");
                 }
                 Scenes[i].Schedule.Hub.BeginAt(insertion * Axis, turn);
-                Scenes[i].Take(_starts[i]);
+                Scenes[i].StartFrom(_starts[i]);
                 string? other = StartedChain.FindOther(Scenes[i]);
                 if (other != null)
                 {

@@ -38,7 +38,7 @@ namespace Guidewire.Core
         public double ElementOf(int hub) => _steps == 0 ? 0.0 : Math.Sqrt(_length[hub] / _steps);
 
         /// <summary>Takes the end of a step.</summary>
-        public void Take(RodDynamics dynamics, CoaxialJoints joints, double outermost)
+        public void AddStep(RodDynamics dynamics, CoaxialJoints joints, double outermost)
         {
             RodTerms terms = dynamics.Terms;
             RodShape shape = dynamics.Shape;

@@ -138,7 +138,7 @@ namespace Guidewire.Core
         public void EndStep(double force, double time)
         {
             _foundBefore = _found;
-            Record.Take(IsLimited && _found.Slipped && _found.Moved != _found.Asked, force, time);
+            Record.Record(IsLimited && _found.Slipped && _found.Moved != _found.Asked, force, time);
         }
 
         /// <summary>Writes or restores what was found last, and what the steps had beyond the limit.</summary>

@@ -73,7 +73,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>Takes it from all as one rod.</summary>
-        public void Take(RodDynamics dynamics, CoaxialJoints joints)
+        public void UpdateFrom(RodDynamics dynamics, CoaxialJoints joints)
         {
             TakeForces(dynamics.Terms, dynamics.Shape);
             if (_instrument == 0)

@@ -26,7 +26,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>Takes the shape and the motion.</summary>
-        public void Take(MaterialScene scene)
+        public void SetFrom(MaterialScene scene)
         {
             RodShape shape = scene.Shape;
             for (int k = 0; k <= shape.ElementCount; k++)

@@ -39,7 +39,7 @@ namespace Guidewire.Core
         {
             double force = Coaxial()!.WireForce;
             RodTerms terms = Dynamics.Terms;
-            StressRecord record = _stress.Take(Dynamics, Chain.Rod.Joints, force);
+            StressRecord record = _stress.Record(Dynamics, Chain.Rod.Joints, force);
             record.TakeEnergies(Dynamics.KineticEnergy,
                 terms.ElasticEnergy(Dynamics.Shape) - Chain.Rod.Axial.PreloadEnergy,
                 terms.LoadPotential(Dynamics.Shape));
@@ -51,7 +51,7 @@ namespace Guidewire.Core
         public override CoaxialRecord? Coaxial()
         {
             Chain.TakeTime();
-            CoaxialRecord outermost = _records.Take(Dynamics, Chain.Rod.Joints, _each);
+            CoaxialRecord outermost = _records.Record(Dynamics, Chain.Rod.Joints, _each);
             for (int i = 0; i < _records.All.Length; i++)
             {
                 _records.All[i].SlippedFrom = Slips[i].Record.SlippedFrom;
@@ -146,7 +146,7 @@ namespace Guidewire.Core
             Quaterniond[] q = Wire.Shape.Q;
             _hub.ForceError = _errors.Of(Slips.Length - 1);
             _hub.SlippedFrom = Slips[Slips.Length - 1].Record.SlippedFrom;
-            _hub.Take(Drives[Drives.Length - 1], record.WireForce, record.WireTorque, q[q.Length - 1].Director3,
+            _hub.Record(Drives[Drives.Length - 1], record.WireForce, record.WireTorque, q[q.Length - 1].Director3,
                 record.WireTwist, record.LargestCurvature);
             return _hub;
         }
@@ -159,10 +159,10 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        protected override void Take()
+        protected override void RecordStep()
         {
-            base.Take();
-            _errors.Take(Dynamics, Chain.Rod.Joints, Coaxial()!.Force);
+            base.RecordStep();
+            _errors.AddStep(Dynamics, Chain.Rod.Joints, Coaxial()!.Force);
             if (_records.HasFriction)
             {
                 Setup.TakeStrains(_records.All, _report, Dynamics.Time);
@@ -184,7 +184,7 @@ namespace Guidewire.Core
             base.TakeShapes();
             for (int i = 0; i < _records.All.Length; i++)
             {
-                _each[i].Take(Dynamics, Chain.Rod.Joints);
+                _each[i].UpdateFrom(Dynamics, Chain.Rod.Joints);
                 if (Contacts != null)
                 {
                     TakeWalls(i, _records.All[i].ContactForces, _records.All[i].WallDisplacements);

@@ -28,7 +28,7 @@ namespace Guidewire.Core
 
         /// <summary>The record at the time that was set last; the next call writes it anew.</summary>
         /// <param name="thrust">Of the wire's hub, N.</param>
-        public StressRecord Take(RodDynamics dynamics, CoaxialJoints joints, double thrust)
+        public StressRecord Record(RodDynamics dynamics, CoaxialJoints joints, double thrust)
         {
             CoaxialBendTwist bending = dynamics.Terms.CoaxialBending!;
             int wire = joints.InnerCount;

@@ -59,7 +59,7 @@ namespace Guidewire.Core
         /// <param name="node">What each node was in the other one, -1 where it comes in; an element was that which
         /// ended at the same node.</param>
         /// <param name="elementCount">At most those that this is made for.</param>
-        public void Take(FrictionAnchors other, int[] node, int elementCount)
+        public void CarryOver(FrictionAnchors other, int[] node, int elementCount)
         {
             Dissipated = other.Dissipated;
             Anchor[] was = other._anchors;

@@ -64,7 +64,7 @@ namespace Guidewire.Core
         /// <summary>Takes over what contacts keep, of a wire where nodes have come in or gone.</summary>
         /// <param name="node">What each node was there, -1 where it comes in; an element was that which ended at the
         /// same node.</param>
-        public void Take(SelfFriction former, int[] node, int elementCount)
+        public void CarryOver(SelfFriction former, int[] node, int elementCount)
         {
             Dissipated = former.Dissipated;
             StructList<Spring> was = former._anchors;

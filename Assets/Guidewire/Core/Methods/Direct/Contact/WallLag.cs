@@ -144,9 +144,9 @@ namespace Guidewire.Core
             return sum;
         }
 
-        /// <summary>Takes over what a wire between the same walls left, see <see cref="FrictionAnchors.Take"/>.
+        /// <summary>Takes over what a wire between the same walls left, see <see cref="FrictionAnchors.CarryOver"/>.
         /// </summary>
-        public void Take(WallLag other, int[] node, int elementCount)
+        public void CarryOver(WallLag other, int[] node, int elementCount)
         {
             Dissipated = other.Dissipated;
             double[] behind = other._behind;

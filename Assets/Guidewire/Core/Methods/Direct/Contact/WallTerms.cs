@@ -49,19 +49,19 @@ namespace Guidewire.Core
         /// <summary>Takes what friction and delays have left to a rod between the same walls: another one, or this
         /// one before its elements were others.</summary>
         /// <param name="node">What each node was there, -1 where it comes in.</param>
-        public void Take(WallTerms former, int[] node, int elementCount)
+        public void CarryOver(WallTerms former, int[] node, int elementCount)
         {
             if (former.Friction != null)
             {
-                Friction?.Anchors.Take(former.Friction.Anchors, node, elementCount);
+                Friction?.Anchors.CarryOver(former.Friction.Anchors, node, elementCount);
             }
             if (former.SelfFriction != null)
             {
-                SelfFriction?.Take(former.SelfFriction, node, elementCount);
+                SelfFriction?.CarryOver(former.SelfFriction, node, elementCount);
             }
             if (former.Barrier.Lag != null)
             {
-                Barrier.Lag?.Take(former.Barrier.Lag, node, elementCount);
+                Barrier.Lag?.CarryOver(former.Barrier.Lag, node, elementCount);
             }
         }
 

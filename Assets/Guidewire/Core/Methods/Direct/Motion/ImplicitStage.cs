@@ -253,7 +253,7 @@ namespace Guidewire.Core
             {
                 _inertia.Balance(_shape, Reactions.LoadSum());
             }
-            Rates.Take(stage, _shape, _inertia, _velocityHistory, _hasPast);
+            Rates.Record(stage, _shape, _inertia, _velocityHistory, _hasPast);
             Damping?.EndStage(stage, _shape);
             Inner.EndStage(stage, _shape);
             Reactions.TakeStage();

@@ -158,7 +158,7 @@ namespace Guidewire.Core
                     Cancellation.ThrowIfCancellationRequested();
                     long before = Newton.Iterations;
                     string? failure = _stepper.Step(interval);
-                    _work.Take(Newton.Iterations - before);
+                    _work.Spend(Newton.Iterations - before);
                     Time = interval.End;
                     _terms.Walls()?.Barrier.SetTime(Time);    // the last stage's time has another rounding
                     failure ??= FindLost?.Invoke();

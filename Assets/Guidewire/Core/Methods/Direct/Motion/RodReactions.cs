@@ -63,7 +63,7 @@ namespace Guidewire.Core
             {
                 _terms.Walls()?.Barrier.Value(_motion.Shape);
                 AddEnds();
-                Take(new StageForces
+                Record(new StageForces
                 {
                     Proximal = _gradient[0].X,
                     Distal = _gradient[_motion.Shape.ElementCount].X,
@@ -73,7 +73,7 @@ namespace Guidewire.Core
 
         /// <summary>Takes the forces that nodes 0 and n need to be where they are, with the loads, and with what walls
         /// and the hub add between walls, as those of the last stage.</summary>
-        public void Take(StageForces supports)
+        public void Record(StageForces supports)
         {
             _end = supports;
             _end.Load = LoadSum();

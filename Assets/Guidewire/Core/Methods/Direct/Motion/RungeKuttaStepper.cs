@@ -168,7 +168,7 @@ namespace Guidewire.Core
             }
             rates.SetFirst(_motion.Velocities, _motion.Spins, false);
             Stage.Inner.SetFirst(false);
-            Stage.Reactions.Take(_start.Forces);
+            Stage.Reactions.Record(_start.Forces);
             return true;
         }
     }

@@ -43,7 +43,7 @@ namespace Guidewire.Core
         /// <summary>Takes the end of a step, or of several of one length.</summary>
         /// <param name="spins">Angular velocities along the elements' axes, rad/s.</param>
         /// <param name="dt">Of all of them, s.</param>
-        public void Take(MaterialRod rod, RodShape shape, Vector3d[] spins, double dt, long steps)
+        public void AddSteps(MaterialRod rod, RodShape shape, Vector3d[] spins, double dt, long steps)
         {
             Vector3d sum = Vector3d.Zero;
             for (int j = 0; j < spins.Length; j++)

@@ -99,7 +99,7 @@ namespace Guidewire.Core
 
         /// <summary>Takes the rates of a stage that is solved.</summary>
         /// <param name="isSecondStep">For a scheme of one stage: whether there is a step before.</param>
-        public void Take(int stage, RodShape shape, InertiaEnergy inertia, Vector3d[] velocityHistory,
+        public void Record(int stage, RodShape shape, InertiaEnergy inertia, Vector3d[] velocityHistory,
             bool isSecondStep)
         {
             if (_last == 0)

@@ -37,7 +37,7 @@ namespace Guidewire.Core
         /// <param name="record">Receives them by element.</param>
         /// <param name="extremes">Receives the largest.</param>
         /// <param name="time">s.</param>
-        public void Take(RodShape shape, ContactRecord record, RunExtremes extremes, double time)
+        public void Record(RodShape shape, ContactRecord record, RunExtremes extremes, double time)
         {
             Vector3d[] forces = record.ElementForces;
             Array.Clear(forces, 0, _rod.ElementCount);

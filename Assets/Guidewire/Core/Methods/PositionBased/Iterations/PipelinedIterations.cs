@@ -94,7 +94,7 @@ namespace Guidewire.Core
                 long laneIterations = (iterations - lane + T.Count - 1L) / T.Count;
                 _end[lane] = Lag * lane + laneIterations * _period;
             }
-            Take(x, q);
+            Load(x, q);
             RunAligned(Ticks(iterations), x);
             GiveBack(x, q);
             return true;
@@ -271,7 +271,7 @@ namespace Guidewire.Core
             }
         }
 
-        private void Take(Vector3d[] x, Quaterniond[] q)
+        private void Load(Vector3d[] x, Quaterniond[] q)
         {
             for (int p = 0; p < _period; p++)
             {

@@ -16,7 +16,7 @@ namespace Guidewire.Core.Tests
             for (int step = 0; step < 10; step++)
             {
                 work.BeginStep();
-                work.Take(10 * AtOnce);
+                work.Spend(10 * AtOnce);
                 Assert.That(work.IsOver || work.IsScarce, Is.False);
             }
         }
@@ -30,9 +30,9 @@ namespace Guidewire.Core.Tests
             var work = new WorkLimit(Solution, limitedHubs);
             work.BeginStep();
             work.Count();
-            work.Take(times * AtOnce);
+            work.Spend(times * AtOnce);
             Assert.That(work.IsScarce && !work.IsOver);
-            work.Take(1);
+            work.Spend(1);
             Assert.That(work.IsOver);
         }
 
@@ -49,7 +49,7 @@ namespace Guidewire.Core.Tests
             {
                 work.BeginStep();
                 work.Count();
-                work.Take(AStep + more);
+                work.Spend(AStep + more);
                 if (work.IsOver)
                 {
                     break;
@@ -66,7 +66,7 @@ namespace Guidewire.Core.Tests
             var work = new WorkLimit(Solution);
             work.BeginStep();
             work.Count();
-            work.Take(AtOnce);
+            work.Spend(AtOnce);
             for (int step = 0; step < AtOnce / AStep / 2; step++)
             {
                 Assert.That(work.IsScarce);
@@ -78,7 +78,7 @@ namespace Guidewire.Core.Tests
                 work.BeginStep();
             }
             work.Count();
-            work.Take(AtOnce + 1);
+            work.Spend(AtOnce + 1);
             Assert.That(work.IsOver);
         }
 
@@ -88,15 +88,15 @@ namespace Guidewire.Core.Tests
             var work = new WorkLimit(Solution);
             work.BeginStep();
             work.Count();
-            work.Take(AtOnce - 7);
+            work.Spend(AtOnce - 7);
             var kept = new Snapshot();
             work.Serialize(kept);
             var restored = new WorkLimit(Solution);
             restored.Serialize(kept.ToRead());
             restored.Count();
-            restored.Take(7);
+            restored.Spend(7);
             Assert.That(restored.IsOver, Is.False);
-            restored.Take(1);
+            restored.Spend(1);
             Assert.That(restored.IsOver);
         }
     }

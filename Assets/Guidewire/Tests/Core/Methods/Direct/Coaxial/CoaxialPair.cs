@@ -106,7 +106,7 @@ namespace Guidewire.Core.Tests
             {
                 var change = new CoaxialChange(rod.Joints);
                 change.Begin(was!);
-                change.Take(old, Shape);
+                change.Convert(old, Shape);
             }
         }
 

@@ -148,7 +148,7 @@ namespace Guidewire.Core.Tests
             var rod = new MaterialRod(10);
             for (int j = 0; j < 10; j++)
             {
-                rod.Take(j, pair.Coaxial.Rod, 9);
+                rod.CopyElement(j, pair.Coaxial.Rod, 9);
                 rod.Length[j] = pair.Coaxial.Rod.Length[j];
             }
             RodShape alone = Rods.AtRest(rod, new RodSupports { Clamp = ClampRule.HalfElement }, Vector3d.Zero, force,

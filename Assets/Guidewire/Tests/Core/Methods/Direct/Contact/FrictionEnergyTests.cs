@@ -190,14 +190,14 @@ namespace Guidewire.Core.Tests
             friction.EndStep(shape);
             FrictionAnchors all = friction.Anchors;
             var shorter = new FrictionAnchors(2, N - 1);
-            shorter.Take(all, Enumerable.Range(1, N).ToArray(), N - 1);
+            shorter.CarryOver(all, Enumerable.Range(1, N).ToArray(), N - 1);
             var back = new FrictionAnchors(2, N);
-            back.Take(shorter, Enumerable.Range(-1, N + 1).ToArray(), N);
+            back.CarryOver(shorter, Enumerable.Range(-1, N + 1).ToArray(), N);
             // In place the same.
             var own = new FrictionAnchors(2, N);
-            own.Take(all, Enumerable.Range(0, N + 1).ToArray(), N);
-            own.Take(own, Enumerable.Range(1, N).ToArray(), N - 1);
-            own.Take(own, Enumerable.Range(-1, N + 1).ToArray(), N);
+            own.CarryOver(all, Enumerable.Range(0, N + 1).ToArray(), N);
+            own.CarryOver(own, Enumerable.Range(1, N).ToArray(), N - 1);
+            own.CarryOver(own, Enumerable.Range(-1, N + 1).ToArray(), N);
             int kept = 0;
             for (int w = 0; w < 2; w++)
             {
