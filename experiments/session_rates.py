@@ -20,8 +20,8 @@ from typing import Any
 
 import numpy as np
 
+from experiments.scene_meshes import main_lumen
 from guidewire import Session
-from guidewire.anatomy.lumens import main_lumen
 from guidewire.env import Environment, Observation, Picture, all_tasks
 from guidewire.env.baselines import baseline_of, parts_of
 from guidewire.env.spaces import Error

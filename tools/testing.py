@@ -68,6 +68,7 @@ def test(arguments: argparse.Namespace) -> int:
         os.environ.setdefault(DAY, str(date.today().toordinal()))    # one day for all workers, also at midnight
         _say(f"random tests with {DAY}={os.environ[DAY]}")
     if arguments.what:
+        del os.environ[READY]    # nothing is built beside them: who needs the runner builds it
         return _part(arguments.what, arguments.all)
     seconds = _SECONDS[arguments.all]
     workers = (os.cpu_count() or 1) + 1    # one more than processors: a part of their time tests wait

@@ -8,10 +8,10 @@ from pathlib import Path
 
 import numpy as np
 
+from experiments.scene_meshes import ARTERY, ARTERY_ENTRANCE, artery_lumens
 from guidewire.anatomy import output
 from guidewire.anatomy.centreline import Centreline, End
 from guidewire.anatomy.inspection import Unit
-from guidewire.anatomy.lumens import ARTERY, ARTERY_ENTRANCE, artery_lumens
 from guidewire.anatomy.mesh import Mesh
 from guidewire.anatomy.reading import Source
 from guidewire.logs.surfaces import read_obj

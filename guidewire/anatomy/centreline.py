@@ -24,6 +24,7 @@ _SAMPLES = (6_000, 40_000)  # points of the wall, at least and at most
 _DENSITY = 40.0  # of them on the square of a narrow radius
 _STEP = 0.25  # between points of the centreline, of the radius
 _THIN = 0.15  # a branch with a blind end is at least so wide, of the nearest path's radius
+_NEAREST = 12  # nodes of other paths that a blind end is compared with
 _EDGE = 2.0  # radii of a blind end: so far before and behind it the lumen goes on where it is an edge
 _AT_RIM = 3.0  # radii of a rim
 _SMOOTHING = 1.5  # points, of the Gaussian along a branch
@@ -298,11 +299,21 @@ class _Builder:
             if self._rims[k] is None and self._targets[k] != self._start and others:
                 away = np.linalg.norm(graph.centres[others] - graph.centres[chain[-1]], axis=1)
                 beside = graph.radii[others[int(np.argmin(away))]]
-                if (away < (1.0 + BLIND) * graph.radii[others]).any() or graph.radii[chain[-1]] < _THIN * min(
+                near = np.flatnonzero(away < (1.0 + BLIND) * graph.radii[others])
+                near = near[np.argsort(away[near])[:_NEAREST]]
+                if self._sees(chain[-1], np.array(others)[near]) or graph.radii[chain[-1]] < _THIN * min(
                         beside, typical) or self._is_edge(chain[-1], others, int(np.argmin(away))):
                     continue
             kept.append(k)
         return kept
+
+    def _sees(self, tip: int, nodes: np.ndarray) -> bool:
+        """Return whether a straight way within the lumen leads from a blind end to one of these nodes: beside another
+        vessel, which a wall parts from it, a branch is one all the same."""
+        graph, parts = self._graph, np.linspace(0.1, 0.9, 9)[:, None]
+        ways = (graph.centres[tip] + parts * (graph.centres[node] - graph.centres[tip]) for node in nodes)
+        return any(all((np.linalg.norm(graph.centres - place, axis=1) < graph.radii).any() for place in way)
+                   for way in ways)
 
     def _is_edge(self, tip: int, others: list[int], nearest: int) -> bool:
         """Return whether a blind end is the edge of a lumen that is no circle, such as a crescent: it goes on there

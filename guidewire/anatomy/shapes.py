@@ -109,11 +109,6 @@ def _are_apart(tubes: list[Tube]) -> bool:
     return True
 
 
-def tube_mesh(points: np.ndarray, radii: np.ndarray) -> Mesh:
-    """Return a tube around a centreline, open at both ends; in the unit of its points."""
-    return mesh_of_tubes([Tube(points, radii, ends=(True, True))], 1.0)
-
-
 def _arch(rng: np.random.Generator, number: int):
     ascending, middle = 0.5 * _normal(rng, 30.9, 4.1), 0.5 * _normal(rng, 27.7, 3.7)
     descending = min(0.5 * _normal(rng, 24.3, 3.5), middle)

@@ -1,7 +1,7 @@
 """An instrument from its data sheet: a file of the current folder, made of another one, and what its numbers give.
 
-The program that simulates it turns the numbers of a data sheet into stiffness (docs/instruments.md); here stands how far
-such a number is known.
+The program that simulates it turns the numbers of a data sheet into stiffness (docs/instruments.md). Here stands how
+far such a number is known.
 """
 
 from __future__ import annotations

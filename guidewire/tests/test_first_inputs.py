@@ -12,6 +12,7 @@ from guidewire import Environment, Session, SessionError, VectorEnvironment
 from guidewire.anatomy.mesh import AnatomyError
 from guidewire.anatomy.lines import read_lines
 from guidewire.env.spaces import Error
+from guidewire.env.task import find_task
 from guidewire.library import find_study
 from guidewire.prepare import PreparationError
 from guidewire.runs import checking
@@ -136,6 +137,15 @@ def test_a_task_of_ones_own_with_a_note_is_an_environment(runner_command, tmp_pa
     with Environment(_file(tmp_path, '{"note": "mine", "overrides": {"timeStep": 0.07}, ' + TASK + "}")) as environment:
         environment.reset(seed=1)
         environment.step(environment.action_space.sample())
+
+
+def test_a_task_whose_scene_has_another_time_step_takes_one_that_divides_an_action(tmp_path):
+    for step, taken in ((0.05, 0.14 / 3.0), (0.07, 0.07), (1.0, 0.14), (0.02, 0.02)):
+        (tmp_path / "scene.json").write_text(json.dumps({"timeStep": step}))
+        task = find_task(_file(tmp_path, '{"scene": "scene.json", ' + TASK + "}"))
+        assert task.overrides["timeStep"] == pytest.approx(taken)
+    stated = find_task(_file(tmp_path, '{"scene": "scene.json", "overrides": {"timeStep": 0.1}, ' + TASK + "}"))
+    assert stated.overrides["timeStep"] == 0.1
 
 
 def _file(folder, text):

@@ -9,7 +9,7 @@ import pytest
 from PIL import Image
 
 import guidewire.viewer.command  # noqa: F401 a part of it is replaced by name
-from guidewire.anatomy.lumens import artery_lumens
+from experiments.scene_meshes import artery_lumens
 from guidewire.commands import commands
 from guidewire.logs.logs import read_log
 from guidewire.prepare import ROOT

@@ -54,6 +54,13 @@ def test_a_runner_that_hangs_or_is_stopped_is_a_failure(file, capsys):
     assert run("stopped", [*PYTEST, str(file)], 60.0, stop) == Count(0, 1)
 
 
+def test_a_part_that_needs_the_runner_does_not_wait_for_a_build_that_nobody_makes(file, monkeypatch, capsys):
+    monkeypatch.setattr(testing, "ROOT", file.parent)
+    file.write_text("import os\ndef test_waits(): assert 'GUIDEWIRE_READY' not in os.environ\n")
+    assert testing.test(argparse.Namespace(all=False, what=[str(file)])) == 0
+    assert "1 passed, 0 failed" in capsys.readouterr().out
+
+
 def test_a_runner_that_fails_after_its_tests_is_a_failure(file, capsys):
     file.write_text("import atexit, os\natexit.register(os._exit, 5)\ndef test_passes(): pass\n")
     assert run("ends", [*PYTEST, str(file)], 60.0) == Count(1, 1)

@@ -36,6 +36,15 @@ RING = [([0, 0, 10], [s * 9, 0, 19], 1.8) for s in (1, -1)] + [([s * 9, 0, 19], 
     ([s * 9, 0, 29], [0, 0, 38], 1.8) for s in (1, -1)]
 
 
+def test_a_branch_that_ends_beside_a_wide_vessel_is_an_end() -> None:
+    """A hairpin of radius 4 and 8 whose legs are 28 mm apart; a branch of the first ends 1.2 mm before the second, less
+    than its radius from its wall."""
+    legs = [([-12, 0, 0], [-12, 0, 50], 4.0), ([-12, 0, 50], [16, 0, 55], 4.0), ([16, 0, 55], [16, 0, 10], 8.0)]
+    repaired = vessel_of(*legs, ([-12, 0, 25], [5.3, 0, 25], 1.5), size=(84, 36, 120), low=(-22.0, -10.5, -6.0))
+    ends = [end.centre for end in find_centreline(repaired.mesh, repaired.rims).ends]
+    assert len(ends) == 3 and min(np.linalg.norm(end - [5.3, 0.0, 25.0]) for end in ends) < 2.0
+
+
 @pytest.mark.long("the graph of a fork, and of a dome, which is no end either")
 def test_a_ring_between_two_trunks_is_a_loop_and_no_end() -> None:
     repaired = vessel_of(*TRUNKS, *RING)

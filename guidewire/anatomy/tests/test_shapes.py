@@ -14,7 +14,7 @@ from guidewire.anatomy.centreline import find_centreline  # noqa: E402
 from guidewire.anatomy.inspection import inspect  # noqa: E402
 from guidewire.anatomy.medial_graph import WallDistance  # noqa: E402
 from guidewire.anatomy.mesh import AnatomyError, Edges, close_rims, find_rims  # noqa: E402
-from guidewire.anatomy.shapes import _carina, _spline, make, name_of, tube_mesh, tubes_of  # noqa: E402
+from guidewire.anatomy.shapes import _carina, _spline, make, name_of, tubes_of  # noqa: E402
 from guidewire.anatomy.tests.solids import SLANT, frame, tube  # noqa: E402
 from guidewire.anatomy.tubes import Tube, _Field, _union, mesh_of_tubes  # noqa: E402
 from tools.seeds import of_the_day  # noqa: E402
@@ -140,7 +140,7 @@ def test_the_same_seed_gives_the_same_mesh_and_another_one_another() -> None:
     first, again, other = (tubes_of("coronary", 1, seed)[0] for seed in (3, 3, 4))
     assert all(np.array_equal(a.points, b.points) for a, b in zip(first, again))
     assert not np.array_equal(first[0].points, other[0].points)
-    one, same = (tube_mesh(first[0].points, first[0].radii) for _ in range(2))
+    one, same = (mesh_of_tubes([first[0]], 1.0) for _ in range(2))
     assert np.array_equal(one.vertices, same.vertices)
 
 

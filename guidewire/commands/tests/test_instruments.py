@@ -19,7 +19,7 @@ from guidewire.benches.wire import Wire, wire_of
 from guidewire.commands import instruments, sheet
 from guidewire.logs.logs import LogError, read_entries, read_log
 from guidewire.prepare import ROOT, PreparationError
-from guidewire.runs.runner import Request
+from guidewire.runs.runner import Request, Runner
 from guidewire.runs.tests.parameter_strategies import FULL
 
 NAMES = sorted(instruments.files())
@@ -191,6 +191,13 @@ def test_a_data_sheet_makes_an_instrument_whose_tip_buckles_at_its_load(runner_c
         with pytest.raises(PreparationError, match="is there already"):
             sheet.write(bench, "mine", "bentson-0.035", [])
         assert set(instruments.files()) == before
+    # By its name with a parameter file of another folder, too.
+    (tmp_path / "scenes").mkdir()
+    (tmp_path / "scenes" / "scene.json").write_text('{"solver": "direct", "instrument": "mine"}')
+    runner = Runner(runner_command, tmp_path)
+    answer = runner.run(Request("a", tmp_path / "scenes" / "scene.json", tmp_path / "out", {"maxSimulationSteps": 0}))
+    runner.close()
+    assert answer.exit_code == 0, answer.message
 
 
 def test_a_data_sheet_replaces_the_stiffness_of_the_shaft(runner_command, tmp_path, monkeypatch):

@@ -5,8 +5,8 @@ using System.IO;
 namespace Guidewire.Io
 {
     /// <summary>Finds an instrument's file by its name: among the files that a host has in memory; in the folder
-    /// <c>instruments</c> beside the parameter file, or in the current folder where there is no such file; then in that
-    /// of the program, which is the nearest above the program or above the current folder.</summary>
+    /// <c>instruments</c> beside the parameter file, then in that of the current folder; then in that of the program,
+    /// which is the nearest above the program or above the current folder.</summary>
     public static class InstrumentLibrary
     {
         /// <summary>Under this name AppContext may hold the folder of the program, where that is a library in another
@@ -122,21 +122,28 @@ namespace Guidewire.Io
         private static List<string> Folders(string? parameterFile)
         {
             var folders = new List<string>();
+            string current = Directory.GetCurrentDirectory();
             string? beside = parameterFile == null ? null : Path.GetDirectoryName(Path.GetFullPath(parameterFile));
-            string own = Path.Combine(beside ?? Directory.GetCurrentDirectory(), Folder);
-            if (Directory.Exists(own))
+            foreach (string place in new[] { beside ?? current, current })
             {
-                folders.Add(own);
+                string own = Path.Combine(place, Folder);
+                if (Directory.Exists(own) && !folders.Contains(own))
+                {
+                    folders.Add(own);
+                }
             }
             string program = AppContext.GetData(ProgramFolder) as string ?? AppContext.BaseDirectory;
-            foreach (string start in new[] { program, Directory.GetCurrentDirectory() })
+            foreach (string start in new[] { program, current })
             {
                 for (string? above = start; above != null; above = Path.GetDirectoryName(above))
                 {
                     string folder = Path.Combine(above, Folder);
                     if (Directory.Exists(folder))
                     {
-                        folders.Add(folder);
+                        if (!folders.Contains(folder))
+                        {
+                            folders.Add(folder);
+                        }
                         return folders;
                     }
                 }
