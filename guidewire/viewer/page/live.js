@@ -9,6 +9,7 @@ import { Model } from "./model.js";
 import { byId, make, named } from "./panel.js";
 import { Recording } from "./recording.js";
 import { courseOf, Debrief, rowsOf, save, thinned } from "./report.js";
+import { hum } from "./sounds.js";
 import { Steering } from "./steering.js";
 import { placeName } from "./target.js";
 import { fixed, say } from "./words.js";
@@ -261,6 +262,7 @@ export class Live {
     const isNew = this.status?.opened !== status.opened;
     const before = this.status;
     this.status = status;
+    if (status.isPaused) hum(0);
     if (isNew && status.opened) {
       byId("note").textContent = say("loading the vessel");
       const recorded = await this._connection.recording(status.opened);
@@ -368,7 +370,6 @@ export class Live {
     if (this.mission && judged) keepBest(this.mission.file, { ...judged.result, course: thinned(courseOf(recording, score.first)) });
     const ghost = best?.course ? { course: best.course, name: "ghost: your best" }
       : this.mission?.ghost ? { course: this.mission.ghost, name: "ghost: the recorded drive" } : null;
-    byId("title").focus();
     const answer = await this._debrief.show({ recording, score, beam: spans, ghost, stars: judged?.text ?? "",
       title: isDone ? "target reached" : "report",
       rows: rowsOf(recording, score, { case: this.title, beam: seconds, pictures, stars: judged?.text,

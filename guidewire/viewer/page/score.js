@@ -170,11 +170,12 @@ export function largestForce(recording, frame) {
   return most;
 }
 
-/** Largest strain of a fibre of the wire outside of its sheath, by its curvature; NaN where that has no unit.
+/** Largest strain of a fibre of the wire outside of its sheath, by its curvature; NaN where that has no unit, and of a
+ * catheter, whose bent tip is no kink.
  * @param {import("./recording.js").Recording} recording @param {number} frame */
 function strainOf(recording, frame) {
-  const radii = recording.instruments[0]?.radii;
-  if (!radii || recording.channels.get("curvature")?.unit !== "rad/m") return NaN;
+  const { radii, innerRadii } = recording.instruments[0] ?? {};
+  if (!radii || innerRadii?.some((radius) => radius > 0) || recording.channels.get("curvature")?.unit !== "rad/m") return NaN;
   const curvature = recording.at("curvature", frame);
   let most = 0;
   for (let i = recording.firstShown(frame); i < curvature.length; i++) {
