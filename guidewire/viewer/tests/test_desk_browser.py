@@ -210,6 +210,12 @@ def test_forces_kinks_and_leaving_the_vessel_are_events_and_attempts_are_counted
     # of the 5.5 s before the last frame nothing is known
     assert (got["caution"], got["stop"]) == pytest.approx((1.0, 1.0))
     assert got["best"] == pytest.approx(0.5) and got["wallForce"] == 0.25
+    # A tip that is bent by itself, where nothing presses it, is no kink; 8.6 % more is.
+    bent = [{**one, "curvature": [0, 475.0], "contactForce": [0, 0]} for one in frames[:2]]
+    assert not [one for one in follow(EVENTS, frames=bent)["mishaps"] if one["kind"] == "kink"]
+    pressed = [*bent, {**frames[2], "curvature": [0, 950.0]}]
+    assert [one["text"] for one in follow(EVENTS, frames=pressed)["mishaps"] if one["kind"] == "kink"] == [
+        "wire kinked: 8.6 % strain"]
     # The mark of the gauge is that of all instruments: a catheter had 0.5 N, as 0.3 and 0.4 across.
     with_catheter = [{**one, "contactForces1": [0, 0, 0, 0.3, 0.4, 0] if k == 3 else [0] * 6}
                      for k, one in enumerate(frames)]
