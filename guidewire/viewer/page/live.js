@@ -517,6 +517,6 @@ function nameOf(file) {
 }
 
 export const LIVE_KEYS = /** @type {[string, string][]} */ ([
-  ["pads", "left: up pushes, down pulls; right: sideways turns"], ["W S, up down", "push and pull"], ["A D, left right", "turn"], ["U J, K L", "push and pull, turn the next instrument"], ["G", "fine steering"], ["space", "pause, go on"], ["N", "one step"],
+  ["pads", "push pad: up and down; turn pad: sideways"], ["W S, up down", "push and pull"], ["A D, left right", "turn"], ["U J, K L", "push and pull, turn the next instrument"], ["G", "fine steering"], ["space", "pause, go on"], ["N", "one step"],
   ["R", "start anew"], ["I", "select the next instrument"], ["Q", "exchange it for another one"], ["E", "inject contrast"], ["gamepad", "left stick steers, right stick the next instrument; A pauses, B injects, X fine, Y starts anew, shoulders: next instrument, beam; up: exchange; in the gallery the shoulders choose and A opens"],
 ]);

@@ -219,7 +219,7 @@ CARD = {"role": "button", "name": "Into the artery"}
 PAD = {"role": "application", "name": "up pushes"}
 MEANS = {    # what is said leads to what is done; nothing here knows the page from inside
     "keys": [["press", "Enter"], ["said", "Hold W"], ["down", "w"], ["said", "target reached"], ["up", "w"]],
-    "touch": [["touch", [CARD, 0.5, 0.5]], ["touch", [CARD]], ["said", "upper edge of the left pad"],
+    "touch": [["touch", [CARD, 0.5, 0.5]], ["touch", [CARD]], ["said", "upper edge of the push pad"],
               ["touch", [PAD, 0.5, 0.02]], ["said", "target reached"], ["touch", [PAD]]],
     "gamepad": [["see", GAMEPAD], ["see", "pad.buttons[0].pressed = true"], ["said", "Hold"],
                 ["see", "pad.buttons[0].pressed = false"], ["see", "pad.axes[1] = -1"], ["said", "target reached"]],
