@@ -276,7 +276,7 @@ OVERLAPS = """(() => {
     && one.checkVisibility({ visibilityProperty: true, opacityProperty: true }));
   const clipped = (one) => {
     let { left, top, right, bottom } = one.getBoundingClientRect();
-    for (let up = one.parentElement; up; up = up.parentElement) {
+    for (let up = one.parentElement; up && up !== document.body; up = up.parentElement) {
       if (getComputedStyle(up).overflowY === 'visible') continue;
       const box = up.getBoundingClientRect();
       [left, top] = [Math.max(left, box.left), Math.max(top, box.top)];
