@@ -125,7 +125,8 @@ def _write(folder: Path, scenes: Sequence[_Scene], choices: dict[str, list[str]]
         scene.picture.save(folder / picture)
         meshes = [name for name in scene.files if not name.endswith(_TEXTS)]
         listed.append({"file": scene.file, "title": scene.title, "sentence": scene.sentence, "picture": picture,
-                       "meshes": meshes, **({"mission": {**asdict(scene.mission), "ghost": scene.ghost}} if scene.mission else {})})
+                       "meshes": meshes,
+                       **({"mission": {**asdict(scene.mission), "ghost": scene.ghost}} if scene.mission else {})})
         texts |= {name: file for name, file in scene.files.items() if name.endswith(_TEXTS)}
         for name in meshes:
             (folder / "files" / name).parent.mkdir(parents=True, exist_ok=True)
@@ -183,8 +184,9 @@ def _course(session: Session, steps: int) -> dict[str, list[float]]:
         forces = [state.contact_forces, *(one.contact_forces for one in state.catheters)]
         largest = max(float(np.linalg.norm(one, axis=1).max()) for one in forces)
         left = 0.0 if state.place.is_at_target else state.place.left
-        for name, value in (("time", state.time), ("way", round(millimetres * (first - left), 1) + 0.0), ("force", largest)):
-            course[name].append(float(f"{value:.4g}"))
+        course["time"].append(float(f"{state.time:.4g}"))
+        course["way"].append(round(millimetres * (first - left), 1) + 0.0)
+        course["force"].append(float(f"{largest:.4g}"))
         if state.place.is_at_target or state.outcome:
             return course
         state = session.step(steps=max(1, steps // _MOMENTS))

@@ -1,5 +1,6 @@
 // @ts-check
 import { make, named } from "./panel.js";
+import { note } from "./sounds.js";
 
 const MOST = 150; // pictures of a cine loop
 const RATES = /** @type {[string, number][]} */ ([["continuous", Infinity], ["30 a second", 30], ["15 a second", 15],
@@ -38,6 +39,7 @@ export class Beam {
 
   /** @param {boolean} isOn */
   set(isOn) {
+    if (isOn !== this.isOn) note(isOn ? 660 : 440, 0.1);
     this.isOn = isOn;
     this.button.setAttribute("aria-pressed", String(isOn));
     this._changed();

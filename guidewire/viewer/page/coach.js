@@ -9,8 +9,8 @@ const HELD = 0.3; // s of the run for which a hand has to do what is asked
 
 /** What is asked, by which keys, with which part of the pads, and what for.
  * @type {["push" | "turn", string[], string, string][]} */
-const STEPS = [["push", ["W"], "the upper edge of the left pad", "to push the wire."],
-  ["turn", ["A", "D"], "a side of the right pad", "to turn its tip."]];
+const STEPS = [["push", ["W"], "the upper edge of the push pad", "to push the wire."],
+  ["turn", ["A", "D"], "a side of the turn pad", "to turn its tip."]];
 
 export class Coach {
   /** @param {import("./xray.js").Xray} xray */

@@ -81,7 +81,7 @@ export class Controls {
       this._live.steering.listen(made, axis);
       return made;
     };
-    return make("div", { className: "pads" }, pad("slide", "slide pad: up pushes, down pulls", ["push ↑", "pull ↓"], 0),
+    return make("div", { className: "pads" }, pad("slide", "push pad: up pushes, down pulls", ["push ↑", "pull ↓"], 0),
       pad("spin", "turn pad: sideways turns", ["↺ turn", "turn ↻"], 1));
   }
 

@@ -2,6 +2,7 @@
 import { Dial, Gauge } from "./gauges.js";
 import { byId, make } from "./panel.js";
 import { Score, apart, largestForce, limitsOf, newtons } from "./score.js";
+import { hum } from "./sounds.js";
 import { fixed, say } from "./words.js";
 
 /** @typedef {import("./recording.js").Recording} Recording */
@@ -15,6 +16,7 @@ export class Desk {
     /** @type {Recording | null} */
     this._recording = null;
     this._held = 0; // instrument whose hub is read off
+    this._heard = 0; // frame whose force one heard
     /** Told where somebody turns the dial: rad that the hub is to have. @type {(turn: number) => void} */
     this.onDial = () => {};
     /** Of the hub that is read off, rad. */
@@ -83,13 +85,16 @@ export class Desk {
       (recording.channels.has(name) ? recording.at(name, frame)[0] : NaN);
     const unitOf = (/** @type {string} */ name) => recording.channels.get(name)?.unit ?? "";
     this._hub?.show(at(`${hub}Force`), unitOf(`${hub}Force`), recording.channels.get(`${hub}Force`)?.largest ?? 0);
-    this._wall?.show(largestForce(recording, frame), unitOf("contactForce"), this.score.wallForce);
+    const force = largestForce(recording, frame);
+    hum(this.isLive && frame > this._heard && unitOf("hubForce") === "N" ? force / (limitsOf(recording, 0)?.wall[1] ?? Infinity) : 0);
+    this._heard = frame;
+    this._wall?.show(force, unitOf("contactForce"), this.score.wallForce);
     const millimetres = recording.millimetres;
     const x = recording.at("positions", frame);
     const [tip, base] = this.score.begun;
     const inserted = recording.channels.has(`${hub}Insertion`) ? 1000 * at(`${hub}Insertion`)
       : millimetres * apart(x.subarray(0, 3), base);
-    this._insertion?.show(inserted, `${fixed(inserted, 1)} mm`);
+    this._insertion?.show(inserted, `${fixed(inserted, Math.abs(inserted) < 100 ? 1 : 0)} mm`);
     const turn = at(`${hub}Turn`);
     this.turn = turn;
     this._turn?.show(turn, `${Math.round((turn * 180) / Math.PI)}°`);

@@ -1,5 +1,6 @@
 // @ts-check
 import { byId, make, named } from "./panel.js";
+import { note } from "./sounds.js";
 import { whileHeld } from "./steering.js";
 import { fixed, say } from "./words.js";
 
@@ -63,6 +64,7 @@ export class Injector {
     const isByHand = this._how.value === BY_HAND;
     if (!(isByHand || this._amount.reportValidity()) || !this._rate.reportValidity()) return;
     this._isDown = true;
+    note(300, 0.4);
     const last = this._where.options.length - 1;
     this._send({ do: "inject", amount: isByHand ? MOST : Number(this._amount.value), rate: Number(this._rate.value),
       instrument: this._where.selectedIndex === last ? null : this._where.selectedIndex });

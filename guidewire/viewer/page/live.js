@@ -9,6 +9,7 @@ import { Model } from "./model.js";
 import { byId, make, named } from "./panel.js";
 import { Recording } from "./recording.js";
 import { courseOf, Debrief, rowsOf, save, thinned } from "./report.js";
+import { hum } from "./sounds.js";
 import { Steering } from "./steering.js";
 import { placeName } from "./target.js";
 import { fixed, say } from "./words.js";
@@ -261,6 +262,7 @@ export class Live {
     const isNew = this.status?.opened !== status.opened;
     const before = this.status;
     this.status = status;
+    if (status.isPaused) hum(0);
     if (isNew && status.opened) {
       byId("note").textContent = say("loading the vessel");
       const recorded = await this._connection.recording(status.opened);
@@ -368,7 +370,6 @@ export class Live {
     if (this.mission && judged) keepBest(this.mission.file, { ...judged.result, course: thinned(courseOf(recording, score.first)) });
     const ghost = best?.course ? { course: best.course, name: "ghost: your best" }
       : this.mission?.ghost ? { course: this.mission.ghost, name: "ghost: the recorded drive" } : null;
-    byId("title").focus();
     const answer = await this._debrief.show({ recording, score, beam: spans, ghost, stars: judged?.text ?? "",
       title: isDone ? "target reached" : "report",
       rows: rowsOf(recording, score, { case: this.title, beam: seconds, pictures, stars: judged?.text,
@@ -516,6 +517,6 @@ function nameOf(file) {
 }
 
 export const LIVE_KEYS = /** @type {[string, string][]} */ ([
-  ["pads", "left: up pushes, down pulls; right: sideways turns"], ["W S, up down", "push and pull"], ["A D, left right", "turn"], ["U J, K L", "push and pull, turn the next instrument"], ["G", "fine steering"], ["space", "pause, go on"], ["N", "one step"],
+  ["pads", "push pad: up and down; turn pad: sideways"], ["W S, up down", "push and pull"], ["A D, left right", "turn"], ["U J, K L", "push and pull, turn the next instrument"], ["G", "fine steering"], ["space", "pause, go on"], ["N", "one step"],
   ["R", "start anew"], ["I", "select the next instrument"], ["Q", "exchange it for another one"], ["E", "inject contrast"], ["gamepad", "left stick steers, right stick the next instrument; A pauses, B injects, X fine, Y starts anew, shoulders: next instrument, beam; up: exchange; in the gallery the shoulders choose and A opens"],
 ]);

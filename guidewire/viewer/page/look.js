@@ -2,6 +2,7 @@
 import { CArm, UNKNOWN } from "./carm.js";
 import { LumenCells } from "./cells.js";
 import { Lumen } from "./lumen.js";
+import { say } from "./words.js";
 
 /** @typedef {import("./carm.js").Point} Point */
 
@@ -116,7 +117,7 @@ export class View {
     const [turned, tilted] = this.patient === UNKNOWN ? [["left", "right"], ["above", "below"]]
       : [["LAO", "RAO"], ["CRAN", "CAUD"]];
     const text = (/** @type {number} */ value, /** @type {string[]} */ names) =>
-      `${names[value < 0 ? 1 : 0]} ${Math.abs(Math.round(value))}°`;
+      `${say(names[value < 0 ? 1 : 0])} ${Math.abs(Math.round(value))}°`;
     return [text(lao, turned), text(cranial, tilted)];
   }
 

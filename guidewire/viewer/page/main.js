@@ -119,7 +119,10 @@ addEventListener("pointerdown", ({ target }) => closeMenus(target));
 // A list gives the focus back; while it has it, keys steer, but those that open it.
 addEventListener("change", ({ target }) => target instanceof HTMLSelectElement && target.blur());
 addEventListener("keydown", (event) => {
-  if (event.key === "Escape") closeMenus(null);
+  if (event.key === "Escape") {
+    closeMenus(null);
+    if (shown instanceof Live) shown.closeReport();
+  }
   if (takesKeys(event.target) || event.ctrlKey || event.metaKey) return;
   if (event.key === "Tab" || event.key === "F4" || isOwn(event.target, event.key)) return;
   if (event.target instanceof HTMLSelectElement && event.altKey) return;

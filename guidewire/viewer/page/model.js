@@ -115,7 +115,7 @@ gl_FragColor.rgb = gl_FragColor.rgb * (1.0 - tint.a) + tint.rgb;`)}`;
       k === 0 ? path.along.findIndex((place) => place >= first) : 0));
     this._sheath?.children[0].scale.set(this._drawnThickness, 1, this._drawnThickness);
     this._glow.position.fromArray(this.watchedTip);
-    this._glow.scale.setScalar(Math.max(9 * this.recording.radius * this._drawnThickness, GLOW * this.unitsPerPoint));
+    this._glow.scale.setScalar(Math.max(5 * this.recording.radius * this._drawnThickness, GLOW * this.unitsPerPoint));
     this._paint(full);
     this._point(positions, first);
   }

@@ -183,7 +183,7 @@ export class Debrief {
         save("report.txt", rows.map(([name, value]) => `${name}: ${value}\n`).join(""), "text/plain") }, "save report");
       const buttons = answers.map((text, k) => make("button", { className: k === answers.length - 1 ? "on" : "", onclick: () => answer(text) }, text));
       const [signs, ...missed] = stars.split(", ");
-      this._box.replaceChildren(make("div", { className: "tools" }, make("span", { className: "stars" }, signs), make("h2", {}, title), saving,
+      this._box.replaceChildren(make("div", { className: "tools" }, make("span", { className: "stars" }, signs), make("h2", { tabIndex: -1 }, title), saving,
         ...buttons), ...(missed.length ? [make("span", { className: "note" }, missed.join(", "))] : []),
         make("div", { className: "figures" }, ...figures.map(([name, value, more]) => make("div", {}, make("span", { className: "note" }, name),
           make("b", {}, value), make("span", { className: "note" }, more)))),
@@ -196,7 +196,7 @@ export class Debrief {
       this._box.hidden = false;
       document.body.dataset.debrief = "";
       this._point(recording.count - 1);
-      buttons.at(-1)?.focus();
+      this._box.querySelector("h2").focus(); // not a button: the space bar that was to pause would press it
     });
   }
 

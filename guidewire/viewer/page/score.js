@@ -6,6 +6,7 @@ const PER_CAUTION = 1; // points a second of a wall force in the yellow band
 const PER_STOP = 5; // in the red one
 const LONGEST = 1; // s between two frames: what was between others is not known
 const WITHDRAWN = 5; // mm that the hub goes back where it is one more attempt
+const FREE = 0.01; // of the yellow band's force: below it a wire has the shape that it was given
 const FOLDED = 0.08; // strain of a fibre that no nitinol takes back
 
 /**
@@ -60,6 +61,8 @@ export class Score {
     this._tip = [];
     this._turned = 0; // m: insertion from which on the wire was advanced or withdrawn last
     this._isWithdrawn = false;
+    /** Strains that it has where no wall presses it, as of a bent tip. @type {number[]} */
+    this._shape = [];
     this._wasInside = false; // a wire may begin before its vessel
   }
 
@@ -119,7 +122,9 @@ export class Score {
     this._note("wall", force >= stop, force < caution, say("wall force of {0}, above {1}", newtons(force), newtons(stop)));
     const most = this._limits?.hub[1] ?? Infinity;
     this._note("hub", hub >= most, hub < 0.9 * most, say("force at the hub of {0}: the shaft bows out", newtons(hub)));
-    const strain = strainOf(recording, frame);
+    const strains = strainsOf(recording, frame);
+    if (!(force >= FREE * caution)) strains.forEach((value, i) => { this._shape[i] = Math.max(value, this._shape[i] ?? 0); });
+    const strain = Math.max(0, ...strains.map((value, i) => value - (this._shape[i] ?? 0)));
     this._note("kink", strain >= FOLDED, strain < 0.5 * FOLDED, say("wire kinked: {0} % strain", fixed(100 * strain, 1)));
     if (!recording.channels.has("lumen")) return;
     const [left, isAt, isInside] = recording.at("lumen", frame);
@@ -170,17 +175,14 @@ export function largestForce(recording, frame) {
   return most;
 }
 
-/** Largest strain of a fibre of the wire outside of its sheath, by its curvature; NaN where that has no unit.
- * @param {import("./recording.js").Recording} recording @param {number} frame */
-function strainOf(recording, frame) {
+/** Strain of a fibre of the wire outside of its sheath, of each element, by its curvature; none where that has no unit.
+ * @param {import("./recording.js").Recording} recording @param {number} frame @returns {number[]} */
+function strainsOf(recording, frame) {
   const radii = recording.instruments[0]?.radii;
-  if (!radii || recording.channels.get("curvature")?.unit !== "rad/m") return NaN;
-  const curvature = recording.at("curvature", frame);
-  let most = 0;
-  for (let i = recording.firstShown(frame); i < curvature.length; i++) {
-    most = Math.max(most, curvature[i] * 1e-3 * recording.millimetres * radii[Math.min(i, radii.length - 1)]);
-  }
-  return most;
+  if (!radii || recording.channels.get("curvature")?.unit !== "rad/m") return [];
+  const first = recording.firstShown(frame);
+  return Array.from(recording.at("curvature", frame), (curvature, i) =>
+    (i < first ? 0 : curvature * 1e-3 * recording.millimetres * radii[Math.min(i, radii.length - 1)]));
 }
 
 /** A force as one reads it. @param {number} value N */

@@ -65,7 +65,7 @@ function texture(of) {
 
 /** Steel under a window and over a dark floor, by the direction of the surface. */
 const steel = texture((x, y) => {
-  const light = 0.55 + 0.5 * Math.exp(-(((y - 0.25 + 0.3 * x) / 0.3) ** 2)) + 0.45 * Math.exp(-(((y + 0.7) / 0.18) ** 2)) + 0.25 * y;
+  const light = 0.65 + 0.5 * Math.exp(-(((y - 0.25 + 0.3 * x) / 0.3) ** 2)) + 0.45 * Math.exp(-(((y + 0.7) / 0.18) ** 2)) + 0.25 * y;
   return [light, light, light * 1.02, 1];
 });
 const halo = texture((x, y) => [1, 1, 1, Math.max(0, 1 - Math.hypot(x, y)) ** 2.2]);

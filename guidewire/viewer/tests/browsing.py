@@ -119,7 +119,8 @@ class Firefox:
 
             await ask("session.new", capabilities={})
             await ask("session.subscribe", events=["network.beforeRequestSent", "log.entryAdded"])
-            page = (await ask("browsingContext.create", type="tab"))["context"]    # in that of the start keys press no button
+            # In the tab of the start keys press no button.
+            page = (await ask("browsingContext.create", type="tab"))["context"]
             await ask("browsingContext.activate", context=page)
 
             async def see(expression):

@@ -4,7 +4,7 @@ import pytest
 
 from guidewire.prepare import ROOT
 from guidewire.viewer.tests.browsing import DRAWN
-from guidewire.viewer.tests.test_desk_browser import STATUS, text
+from guidewire.viewer.tests.test_desk_browser import DEBRIEF, STATUS, text
 from guidewire.viewer.tests.test_view import serving
 from guidewire.viewer.tests.test_view_browser import GAMEPAD, HUB, HUB_OF_CATHETER
 
@@ -27,9 +27,11 @@ def by_finger():
     def tap(one):
         return [["touch", [one, 0.5, 0.5]], ["touch", [one]]]
 
-    return {"open": [["see", "document.getElementById('bar').classList.add('open')"], *tap("#exchange")],
-            "do": tap("#card button.on"), "next": tap("#hold"), "pull": [["touch", ["#pad", 0.5, 0.98]]],
-            "push": [["touch", ["#pad", 0.5, 0.02]]], "rest": [["touch", ["#pad"]]], "report": tap("#reporting")}
+    menu = ["until", "(document.getElementById('rest').open = true)"]
+    return {"open": [menu, *tap("#exchange")],
+            "do": tap("#card button.on"), "next": tap("#hold"), "pull": [["touch", ["#slide", 0.5, 0.98]]],
+            "push": [["touch", ["#slide", 0.5, 0.02]]], "rest": [["touch", ["#slide"]]],
+            "report": [menu, *tap("#reporting")]}
 
 
 def by_gamepad():
@@ -67,7 +69,7 @@ def test_a_catheter_is_withdrawn_and_another_one_goes_over_the_wire(browse, runn
             ["see", text("#legend")], ["see", f"[{STATUS}.problem, {STATUS}.steered]"],
             *do["push"], ["until", f"{HUB_OF_CATHETER} > 0"], *do["rest"],
             ["picture", str(tmp_path / "exchanged.png")],
-            *do["report"], ["until", f"{CARD}.open"], ["see", "document.getElementById('report').innerText"],
+            *do["report"], ["until", DEBRIEF], ["see", "document.getElementById('report').textContent"],
             ["picture", str(tmp_path / "report.png")], size=size)["seen"]
     assert any("The catheter needs to be withdrawn by 10 mm more, into the sheath." in str(one) for one in seen)
     again, near, legend, (problem, steered), report = seen[-5:]

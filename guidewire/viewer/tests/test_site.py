@@ -19,7 +19,7 @@ from guidewire.viewer import live
 from guidewire.viewer.cases import MISSIONS
 from guidewire.viewer.held import HeldInstruments
 from guidewire.viewer.tests.browsing import from_npm
-from guidewire.viewer.tests.test_desk_browser import DEBRIEF
+from guidewire.viewer.tests.test_desk_browser import DEBRIEF, OVERLAPS
 from guidewire.viewer.tests.test_view_browser import GAMEPAD
 
 SCENES = ("insertion", "sheath", "catheter-branch")
@@ -219,7 +219,7 @@ CARD = {"role": "button", "name": "Into the artery"}
 PAD = {"role": "application", "name": "up pushes"}
 MEANS = {    # what is said leads to what is done; nothing here knows the page from inside
     "keys": [["press", "Enter"], ["said", "Hold W"], ["down", "w"], ["said", "target reached"], ["up", "w"]],
-    "touch": [["touch", [CARD, 0.5, 0.5]], ["touch", [CARD]], ["said", "upper edge of the left pad"],
+    "touch": [["touch", [CARD, 0.5, 0.5]], ["touch", [CARD]], ["said", "upper edge of the push pad"],
               ["touch", [PAD, 0.5, 0.02]], ["said", "target reached"], ["touch", [PAD]]],
     "gamepad": [["see", GAMEPAD], ["see", "pad.buttons[0].pressed = true"], ["said", "Hold"],
                 ["see", "pad.buttons[0].pressed = false"], ["see", "pad.axes[1] = -1"], ["said", "target reached"]],
@@ -231,8 +231,9 @@ MEANS = {    # what is said leads to what is done; nothing here knows the page f
 def test_the_first_mission_is_won_by_the_pages_texts_and_its_accessibility_tree_alone(request, browser, address, means):
     """At most three clicks: a card, and a pad that is held."""
     size = {} if browser == "firefox" else {"size": (390, 844) if means == "touch" else (1280, 720)}
-    request.getfixturevalue(browser)(["open", address], ["said", "next for you"], *MEANS[means], ["said", "try again"],
-                                     **size)
+    laid_out = ["until", f"!({OVERLAPS}).length"]
+    request.getfixturevalue(browser)(["open", address], ["said", "next for you"], laid_out, *MEANS[means],
+                                     ["said", "try again"], laid_out, **size)
 
 
 @LONG
