@@ -31,9 +31,8 @@ class FigureSpec:
     title : what it shows, in a few words.
     studies : names of the studies whose runs it is drawn from.
     draw : from a mapping of study name to study folder to the figure and its caption. Raises
-        guidewire.logs.logs.LogError
-        where a file cannot be read or no run lasts as long as its reference, and guidewire.logs.relaxation.RelaxationError
-        where nothing relaxes.
+        guidewire.logs.logs.LogError where a file cannot be read or no run lasts as long as its reference, and
+        guidewire.logs.relaxation.RelaxationError where nothing relaxes.
     beside : further files of the picture's folder, by name: each writes, from the same mapping, the file at a path.
     gates : from the same mapping to one line for each number that is beyond its gate.
     """

@@ -33,7 +33,8 @@ QUANTITIES: Mapping[str, tuple[str, str]] = {
     "averageStepTime": ("average wall time of a step", "ms"), "medianStepTime": ("median wall time of a step", "ms"),
     "steps": ("steps", ""), "passages": ("passages of walls", ""), "predictionError": ("prediction error", "units"),
     "relaxationTime": ("relaxation time", "s"), "relaxationTimeError": ("standard error of the relaxation time", "s"),
-    "relaxationPeriod": ("period of the oscillation", "s"), "solver.energy": ("energy at the end", "J"), "hub.tipPosition": ("position of the tip", "units"),
+    "relaxationPeriod": ("period of the oscillation", "s"), "solver.energy": ("energy at the end", "J"),
+    "hub.tipPosition": ("position of the tip", "units"),
 }
 _FORCES = ("largestContactForce", "largestWallForce")  # with gains in units of their own
 _GAINS_FORCE = "mass unit * unit/s$^2$"

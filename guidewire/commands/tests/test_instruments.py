@@ -185,7 +185,8 @@ def test_a_data_sheet_makes_an_instrument_whose_tip_buckles_at_its_load(runner_c
         u = 0.5 * math.pi * math.sqrt(0.8)
         assert deflection(0.8) / deflection(0.0) == pytest.approx((math.tan(u) / u - 1.0) / (u * u / 3.0), rel=0.01)
         before = set(instruments.files())
-        for members, said in ([("tipLoad", "two")], "such as \"2 g\""), ([("tipload", "2")], "unknown member 'tipload'"):
+        for members, said in (([("tipLoad", "two")], "such as \"2 g\""),
+                              ([("tipload", "2")], "unknown member 'tipload'")):
             with pytest.raises(PreparationError, match=said):
                 sheet.write(bench, "other", "bentson-0.035", members)
         with pytest.raises(PreparationError, match="is there already"):
