@@ -25,6 +25,7 @@ namespace Guidewire.Core
         private double _sense = 1.0;         // 1 where it was last asked to push, -1 to pull
         private double _insertionBefore;     // the present step, m
         private double _turnBefore;          // the same, rad
+        private double _carriedBy;           // of the present step, what another hub makes of it, m
 
         /// <summary>Makes the drive of this scene.</summary>
         /// <param name="followsSpring">Whether node 0 follows its support on a spring, which yields a little.</param>
@@ -85,8 +86,12 @@ namespace Guidewire.Core
         /// <summary>How far node 0 goes in the present step, m.</summary>
         public double Moved => Insertion - _insertionBefore;
 
-        /// <summary>The same in the sense in which the drive was last asked to go, m.</summary>
-        public double Progress => _sense * Moved;
+        /// <summary>What its own drive makes of that, in the sense in which it was last asked to go, m.</summary>
+        public double Progress => _sense * (Moved - _carriedBy);
+
+        /// <summary>By how much more the hub goes in the present step than its own drive asks, m: carried by
+        /// another.</summary>
+        public double CarriedBy => Math.Abs(_carriedBy);
 
         /// <summary>By how much the clamp turns in the present step, rad.</summary>
         public double Turned => Turn - _turnBefore;
@@ -168,6 +173,7 @@ namespace Guidewire.Core
             TotalCommandedDisplacement += CommandedDisplacement;
             double goes = Limited(_override ?? asked);
             Carried = (goes - own) * (asked - own) > 0.0 ? Math.Sign(asked) : 0;
+            _carriedBy = Carried != 0 ? goes - own : 0.0;
             if (goes != own)
             {
                 Slip += Carried != 0 ? 0.0 : _sense * (own - goes);

