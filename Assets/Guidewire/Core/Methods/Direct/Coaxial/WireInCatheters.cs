@@ -41,7 +41,8 @@ namespace Guidewire.Core
             RodTerms terms = Dynamics.Terms;
             StressRecord record = _stress.Record(Dynamics, Chain.Rod.Joints, force);
             record.TakeEnergies(Dynamics.KineticEnergy,
-                terms.ElasticEnergy(Dynamics.Shape) - Chain.Rod.Axial.PreloadEnergy,
+                terms.ElasticEnergy(Dynamics.Shape) - Chain.Rod.Axial.PreloadEnergy
+                + (terms.Fibres?.LeadEnergy ?? 0.0),
                 terms.LoadPotential(Dynamics.Shape));
             record.TakeFibres(terms, Dynamics.Shape, Chain.Rod.Joints.InnerCount);
             return record;
@@ -187,7 +188,8 @@ namespace Guidewire.Core
                 _each[i].UpdateFrom(Dynamics, Chain.Rod.Joints);
                 if (Contacts != null)
                 {
-                    TakeWalls(i, _records.All[i].ContactForces, _records.All[i].WallDisplacements);
+                    CoaxialRecord own = _records.All[i];
+                    TakeWalls(i, own.ContactForces, own.StrandForces, own.WallDisplacements);
                 }
             }
         }
