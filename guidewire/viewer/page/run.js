@@ -330,6 +330,7 @@ export class Run {
       const part = (/** @type {number} */ from, /** @type {number} */ to) => bytes.slice(at + from, at + to).buffer;
       walls.push({ kind: walls.length === 0 && this._parameters?.vessel ? "vessel" : "obstacle",
         isSoft: ["wallStiffness", "modulus"].some((key) => key in (own[walls.length] ?? {})),
+        cycles: [], // of a wall that moves the site's page draws the shape of the file
         vertices: Float32Array.from(new Float64Array(part(8, 8 + 8 * corners))),
         triangles: new Uint32Array(part(8 + 8 * corners, 8 + 8 * corners + 4 * sides)) });
       at += 8 + 8 * corners + 4 * sides;
