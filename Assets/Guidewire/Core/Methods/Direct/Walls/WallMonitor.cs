@@ -23,6 +23,7 @@ namespace Guidewire.Core
         private readonly Vector3d[] _forces;   // of the walls where the part begins, N; empty where none moves
         private readonly Vector3d[] _ways;     // of the walls, units
         private double _partBegan;             // s
+        private double _byBlood;               // work of its drag, J
         private bool _hasForces;               // those of the part that comes next
         private readonly double[] _clearance;  // of elements from all walls at least, where a part begins, units
 
@@ -66,8 +67,8 @@ namespace Guidewire.Core
         /// step begins and ends, times the ways of the wall at these nodes.</summary>
         public double Work { get; private set; }
 
-        /// <summary>The most that <see cref="Work"/> has been, J.</summary>
-        public double MaxWork { get; private set; }
+        /// <summary>The most that moving walls and the blood in them have put into the wire, J.</summary>
+        public double MaxPutIn { get; private set; }
 
         /// <inheritdoc/>
         public ContactShape[] Walls => _barrier.Walls;
@@ -92,7 +93,8 @@ namespace Guidewire.Core
         }
 
         /// <summary>Takes the shape at the end of a part of the step.</summary>
-        public void AddPart(RodShape shape)
+        /// <param name="dragPower">By which moving blood drags the wire along at its end, W.</param>
+        public void AddPart(RodShape shape, double dragPower)
         {
             SetUnits(shape, _to);
             for (int w = 0; w < Walls.Length; w++)
@@ -105,6 +107,8 @@ namespace Guidewire.Core
             SetClearances(shape);
             BeginWork(shape);
             AddWork(_to, began, _partBegan);
+            _byBlood += dragPower * (_partBegan - began);
+            MaxPutIn = Math.Max(MaxPutIn, Work + _byBlood);
         }
 
         private void BeginWork(RodShape shape)
@@ -134,7 +138,6 @@ namespace Guidewire.Core
                 {
                     Work += 0.5 / _units * Vector3d.Dot(_forces[i], _ways[i]);
                 }
-                MaxWork = Math.Max(MaxWork, Work);
             }
         }
 
@@ -236,7 +239,8 @@ namespace Guidewire.Core
         public void SerializeWork(Snapshot snapshot)
         {
             Work = snapshot.Serialize(Work);
-            MaxWork = snapshot.Serialize(MaxWork);
+            MaxPutIn = snapshot.Serialize(MaxPutIn);
+            snapshot.Serialize(ref _byBlood);
             snapshot.Serialize(ref _partBegan);
             snapshot.Serialize(ref _hasForces);
             snapshot.Serialize(_forces, _rod.ElementCount + 1);
