@@ -97,9 +97,10 @@ namespace Guidewire.Core
                 _dynamics.Shape);
             bool isOff = _scene.Supports.SheathEnd != null ? _walls.Barrier.Nodes.Clearance < radius
                 : off.Length > radius;
-            return !isOff ? null : string.Format(CultureInfo.InvariantCulture, "at t = {0:G6} s the vessel has moved away"
-                + " from {1}, which stands still: it presses the wire off it; a motion that is smaller there may help",
-                time, _scene.Supports.SheathEnd != null ? "the sheath's exit" : "the end that is held");
+            string what = _scene.Supports.SheathEnd != null ? "the sheath's exit" : "the end that is held";
+            return !isOff ? null : string.Format(CultureInfo.InvariantCulture, "at t = {0:G6} s the vessel has moved "
+                + "away from {1}, which stands still: it presses the wire off it; a motion that is smaller there may "
+                + "help", time, what);
         }
 
         // On the wire along the hub's axis, N.

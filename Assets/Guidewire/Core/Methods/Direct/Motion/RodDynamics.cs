@@ -89,7 +89,8 @@ namespace Guidewire.Core
         /// <summary>z' of the angles to an instrument inside, rad/s; none where there is one alone.</summary>
         public double[] TwistRates => _motion.TwistRates;
 
-        /// <summary>Power by which moving blood drags the wire along, W: of massDamping, on the blood's own way.</summary>
+        /// <summary>Power by which moving blood drags the wire along, W: of massDamping, on the blood's own
+        /// way.</summary>
         public double DragPower
         {
             get
