@@ -35,6 +35,8 @@ RUN_LIMIT = 900.0  # s of wall time of one run
 SURFACE = 0.02  # of the radius, that the wire's surface may be in the moved wall
 FRAMES = 10  # of a log that are judged
 SHEATH = 40.0  # mm of straight vessel before the bends, which stands still
+MOST_STEPS = 500
+OF_WIRES = "elastic line"    # what bends do to a wire is no claim on walls
 EXIT = -4.0  # z of the sheath's end, mm
 
 
@@ -45,6 +47,7 @@ class Moving:
     Attributes
     ----------
     deepest : of the wire's surface in the moved wall, over its radius.
+    moved : of the vessel, mm, at most.
     iterations : of Newton's method, a step.
     """
 
@@ -55,6 +58,7 @@ class Moving:
     reason: str = ""
     deepest: float = 0.0
     iterations: float = 0.0
+    moved: float = 0.0
 
 
 def draw(seed: int, folder: Path) -> dict[str, Any]:
@@ -65,28 +69,26 @@ def draw(seed: int, folder: Path) -> dict[str, Any]:
     bend = float(random.uniform(10.0, 25.0)) * width
     arc = random.uniform(0.5, 1.4) * bend
     torsion = random.uniform(0.0, 0.5) / bend
-    line = bent_line(max(3.0 * arc, 60.0), 0.8, lambda s: 0.0 if s < 5.0 else (1.0 if s < 5.0 + arc else -0.8) / bend,
+    line = bent_line(max(3.0 * arc, 90.0), 0.8, lambda s: 0.0 if s < 5.0 else (1.0 if s < 5.0 + arc else -0.8) / bend,
                      lambda s: torsion)
     back = np.arange(-SHEATH, 0.0, 0.8)[:, None] * np.array([0.0, 0.0, 1.0])
     vertices, faces = swept_mesh(np.concatenate([back, line]), np.full(len(back) + len(line), width),
                                  int(random.integers(14, 22)), random.uniform(0.0, np.pi))
     rows = [f"v {x:.9g} {y:.9g} {z:.9g}" for x, y, z in vertices] + [f"f {a} {b} {c}" for a, b, c in faces + 1]
     (folder / f"moving-{seed}.obj").write_text("\n".join(rows))
-    # A wave along the centreline: A (2 pi/wave)^2 is the curvature that it adds.
-    amplitude = float(random.uniform(2.5, 10.0))    # on both sides of rest
-    wave = 2.0 * np.pi * np.sqrt(amplitude / (random.uniform(0.05, 0.3) / bend))
-    stations = np.r_[0.0, np.cumsum(np.linalg.norm(np.diff(line, axis=0), axis=1))][::3]
-    rise = np.clip(stations / max(30.0, 0.5 * wave), 0.0, 1.0)
-    rise = rise**3 * (10.0 - rise * (15.0 - 6.0 * rise))
+    # Displacements grow with the square of the station: 2 A/length^2 is the curvature that they add.
+    stations = np.r_[0.0, np.cumsum(np.linalg.norm(np.diff(line, axis=0), axis=1))]
+    amplitude = min(float(random.uniform(2.5, 10.0)), 0.5 * 0.3 / bend * stations[-1]**2)    # on both sides of rest
     phases = np.arange(16) / 16
-    along = 2.0 * np.pi * (phases[:, None] + random.uniform(-1.0, 1.0) * stations / wave)
-    direction = random.normal(size=3)
-    moved = (rise * (np.sin(along) - np.sin(along[0])))[..., None] * amplitude * direction / np.linalg.norm(direction)
-    write_centreline(folder / f"moving-{seed}.csv", [line[::3]], [moved], phases)
+    one, two = random.normal(size=(2, 3))
+    ways = np.array([one, random.uniform(-0.7, 0.7) * two]) * amplitude / np.linalg.norm(one)
+    beat = np.stack([np.sin(2 * np.pi * phases), np.sin(4 * np.pi * phases)], axis=1)
+    moved = (beat @ ways)[:, None] * (stations / stations[-1])[:, None]**2
+    write_centreline(folder / f"moving-{seed}.csv", [line[::3]], [moved[:, ::3]], phases)
     period = 1.0 / float(random.uniform(0.5, 3.0))
     speed = float(random.uniform(5.0, 60.0))
     step = float(random.choice([0.01, 0.02, 0.05]))
-    insertion = min(0.8 * stations[-1], speed * 120 * step)
+    insertion = min(0.8 * stations[-1], speed * MOST_STEPS * step)
     # Straight elements stay within 0.01 r of the bent wall.
     element = min(2.0, 0.9 * np.sqrt(8.0 * 0.01 * radius / (0.3 / bend)))
     inside = np.ceil(insertion / element)
@@ -115,25 +117,28 @@ def make(runner: Runner, seed: int, folder: Path) -> Moving:
     if answer.outcome not in ("finished", "failed"):
         return Moving(seed, [f"{answer.outcome}: {answer.message}"], seconds, answer.outcome)
     run = read_run(out)
-    claims, deepest = judge(run, out)
+    claims, deepest, moved = judge(run, out)
     summary = run.summary
-    claims += [f"warning: {one}" for one in summary["warnings"]]
+    claims += [f"warning: {one}" for one in summary["warnings"] if OF_WIRES not in one]
     steps = max(1, summary["steps"])
     return Moving(seed, claims, seconds, answer.outcome, summary["reason"], deepest,
-                  summary["solver"]["wallIterations"] / steps)
+                  summary["solver"]["wallIterations"] / steps, moved)
 
 
-def judge(run: Any, folder: Path) -> tuple[list[str], float]:
-    """Return what a log breaks, and how deep the surface is in the moved wall, over the radius."""
+def judge(run: Any, folder: Path) -> tuple[list[str], float, float]:
+    """Return what a log breaks, how deep the surface is in the moved wall, over the radius, and how far the vessel
+    moved, mm."""
     log, motion = read_log(folder, "all"), motion_of(run.parameters)
     radius = 1e3 * float(run.parameters["wireRadius"])
     rows = [line.split() for line in Path(run.parameters["vessel"]["file"]).read_text().splitlines()]
     vertices = np.array([row[1:] for row in rows if row[0] == "v"], dtype=float)
     faces = np.array([row[1:] for row in rows if row[0] == "f"], dtype=int) - 1
-    claims, deepest = [], 0.0
+    claims, deepest, farthest = [], 0.0, 0.0
     for k in np.unique(np.linspace(len(log.steps) // 4, len(log.steps) - 1, FRAMES).round().astype(int)):
         motion.set_time(log.time[k])
-        search = MeshSearch(motion.moved(vertices)[faces])
+        moved = motion.moved(vertices)
+        farthest = max(farthest, float(np.linalg.norm(moved - vertices, axis=1).max()))
+        search = MeshSearch(moved[faces])
         nodes = log.positions[k]
         nodes = nodes[np.argmax(nodes[:, 2] > EXIT):]
         ends = nodes[:-1], nodes[1:]
@@ -144,7 +149,7 @@ def judge(run: Any, folder: Path) -> tuple[list[str], float]:
         deepest = max(deepest, 1.0 - search.least_distance(*ends, radius) / radius)
     if deepest > SURFACE:
         claims.append(f"the surface is {deepest:.3g} of the radius in the moved wall")
-    return claims, float(deepest)
+    return claims, float(deepest), farthest
 
 
 def campaign(command: Sequence[str], seeds: Iterable[int], folder: Path) -> Iterator[Moving]:

@@ -191,7 +191,8 @@ namespace Guidewire.Cli
             {
                 _pictures.Contrast = session.Contrast?.Flow;
             }
-            _pictures.Draw(_centrelines, view, grey, _displacements);
+            _pictures.Draw(_centrelines, view, grey, _displacements,
+                positions.Length == 0 ? session.Simulation : null);
         }
 
         // Those of a request, or as they are now.

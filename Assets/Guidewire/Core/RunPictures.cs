@@ -19,6 +19,7 @@ namespace Guidewire.Core
 
         private readonly Fluoroscopy _fluoroscopy;
         private readonly List<WallIndentation> _walls = new List<WallIndentation>();    // as the fluoroscopy has them
+        private readonly List<int> _numbers = new List<int>();    // of these walls in the scene
         private readonly Extents? _vessel;
         private readonly double _perUnit;   // mm
         private readonly PatientAxes? _axes;
@@ -46,6 +47,7 @@ namespace Guidewire.Core
                 }
                 Extents box = Extents.Of(wall)!.Value;
                 vessels.Add(WallSurface.Create(wall, 0.5 * (box.Low + box.High), 2.0 * box.LargestSide));
+                _numbers.Add(Array.IndexOf(parameters.Scene.Walls, wall));
                 _walls.Add(new WallIndentation(parameters, wall, vessels[vessels.Count - 1].Vertices));
                 corners.Add(box.Low);
                 corners.Add(box.High);
@@ -91,9 +93,10 @@ namespace Guidewire.Core
         /// <param name="view">What picture.</param>
         /// <param name="grey">Takes the grey levels, row by row from the upper left corner.</param>
         /// <param name="displacements">Of soft walls at the instruments' elements, m; none: walls are at rest.</param>
+        /// <param name="now">The run, for walls that move to be where they are in it; null: they are at rest.</param>
         /// <exception cref="ArgumentException">A value out of its range.</exception>
         public void Draw(IReadOnlyList<Vector3d[]> centrelines, PictureView view, Span<byte> grey,
-            IReadOnlyList<Vector3d[]>? displacements = null)
+            IReadOnlyList<Vector3d[]>? displacements = null, Simulation? now = null)
         {
             FluoroscopySettings asked = view.Settings;
             string? problem = asked.FindProblem();
@@ -113,7 +116,8 @@ namespace Guidewire.Core
             Place(centrelines, view.Attenuation);
             for (int k = 0; k < _walls.Count; k++)
             {
-                if (_walls[k].Move(centrelines, displacements ?? Array.Empty<Vector3d[]>()))
+                if (_walls[k].Move(centrelines, displacements ?? Array.Empty<Vector3d[]>(),
+                    now?.FieldOf(_numbers[k])))
                 {
                     _fluoroscopy.Move(k, _walls[k].Vertices);
                 }

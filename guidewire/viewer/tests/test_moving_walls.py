@@ -42,7 +42,7 @@ def test_the_page_moves_vertices_as_the_motion_does(live, tmp_path):
     motion = motion_of(run.parameters)
     for time, moved in got["moved"]:
         motion.set_time(time)
-        # Linear between 32 phases: 1 - cos(pi/32) of the amplitude; cycles are added, turns of one by the other left out.
+        # Linear between 32 phases: 1 - cos(pi/32) of the amplitude; cycles are added, without turns of one by the other.
         np.testing.assert_allclose(doubles(moved).reshape(-1, 3), motion.moved(vertices), atol=0.02)
     assert got["moves"] == 2
     log = read_log(run.folder, spheres="all")

@@ -54,7 +54,7 @@ namespace Guidewire.Core
             if (wasMoved)
             {
                 Array.Copy(_rest, Vertices, _rest.Length);
-                _isMoved = false;
+                _isMoved = field != null;
             }
             for (int k = 0; k < displacements.Count && _rest.Length > 0; k++)
             {

@@ -212,7 +212,8 @@ namespace Guidewire.Core
                         - length / _timeStep * Drive.CarriedBy;
                     Contacts.DriveAsked += asked / _scene.Metres;
                     Contacts.DriveShortfall += (asked - gone) / _scene.Metres;
-                    Failure ??= _texts.FindOverdriven(Contacts) ?? _texts.FindDrivenOut();
+                    Failure ??= _texts.FindOverdriven(Contacts) ?? _texts.FindDrivenOut()
+                        ?? _texts.FindCarriedOff(Time);
                 }
             }
             TakeExtremes(length);
@@ -221,7 +222,7 @@ namespace Guidewire.Core
 
         private bool HasBlownUp()
         {
-            _energy.WallWork = _monitor?.MaxWork ?? 0.0;
+            _energy.WallWork = _monitor?.MaxPutIn ?? 0.0;
             string? divergence = _energy.Blowup();
             Divergence = divergence == null ? null : divergence + "; lower timeStep, or take another integrator";
             return Divergence != null;
@@ -229,7 +230,7 @@ namespace Guidewire.Core
 
         private void EndInterval()
         {
-            _monitor!.AddPart(Shape);
+            _monitor!.AddPart(Shape, _dynamics.DragPower);
             Terms.Walls()!.Barrier.Nodes.HasBuckled = false;
         }
 

@@ -83,6 +83,26 @@ namespace Guidewire.Core
                 : "the wire drives itself out of its sheath: hubForceLimit is too small to hold it";
         }
 
+        /// <summary>That a vessel has moved away from what holds the wire: from the sheath's exit, or from node 0; or
+        /// null.</summary>
+        public string? FindCarriedOff(double time)
+        {
+            if (!(_walls?.Barrier.Fields.Carrier >= 0) || !_walls.HoldsStart)
+            {
+                return null;
+            }
+            double radius = _scene.Rod.Radius[0];
+            Vector3d off = _dynamics.Shape.X[0] - _walls.Spring.Position;
+            off -= Vector3d.Dot(off, _dynamics.Terms.HubAxis(_dynamics.Shape)) * _dynamics.Terms.HubAxis(
+                _dynamics.Shape);
+            bool isOff = _scene.Supports.SheathEnd != null ? _walls.Barrier.Nodes.Clearance < radius
+                : off.Length > radius;
+            string what = _scene.Supports.SheathEnd != null ? "the sheath's exit" : "the end that is held";
+            return !isOff ? null : string.Format(CultureInfo.InvariantCulture, "at t = {0:G6} s the vessel has moved "
+                + "away from {1}, which stands still: it presses the wire off it; a motion that is smaller there may "
+                + "help", time, what);
+        }
+
         // On the wire along the hub's axis, N.
         private double HubForce => Vector3d.Dot(_walls!.SupportForce(_dynamics.Shape),
             _dynamics.Terms.HubAxis(_dynamics.Shape));

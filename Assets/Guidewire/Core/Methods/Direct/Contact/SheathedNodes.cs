@@ -43,6 +43,9 @@ namespace Guidewire.Core
             (LeavesLumen, LeavesSheath, HasBuckled) = (false, false, false);
         }
 
+        /// <summary>Distance of the sheath's exit from the walls, m.</summary>
+        public double Clearance => _clearance;
+
         /// <summary>Whether the last motion takes a node in the sheath farther sideways than the lumen is wide at the
         /// exit.</summary>
         public bool LeavesLumen { get; private set; }

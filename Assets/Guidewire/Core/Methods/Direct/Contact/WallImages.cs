@@ -94,6 +94,16 @@ namespace Guidewire.Core
             }
         }
 
+        /// <summary>Takes the phases of the cycles of the same walls around another rod.</summary>
+        public void Follow(WallFields other)
+        {
+            for (int w = 0; w < Of.Length && other != this && Key == other.Key && Key.Length > 0; w++)
+            {
+                Of[w]?.Follow(other.Of[w]!, other.Time);
+                Time = other.Time;
+            }
+        }
+
         /// <summary>Writes or restores the phases of the cycles, and where walls are.</summary>
         public void Serialize(Snapshot snapshot, double time)
         {

@@ -51,6 +51,7 @@ namespace Guidewire.Core
         /// <param name="node">What each node was there, -1 where it comes in.</param>
         public void CarryOver(WallTerms former, int[] node, int elementCount)
         {
+            Barrier.Fields.Follow(former.Barrier.Fields);
             if (former.Friction != null)
             {
                 Friction?.Anchors.CarryOver(former.Friction.Anchors, node, elementCount);

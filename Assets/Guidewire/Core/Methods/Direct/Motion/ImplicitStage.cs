@@ -77,6 +77,9 @@ namespace Guidewire.Core
             Reactions = new RodReactions(terms, schedule, motion, all, Newton.BalanceRounding, Damping);
         }
 
+        /// <summary>Velocities of the blood at the nodes in the last stage, m/s; null: it is at rest.</summary>
+        public Vector3d[]? Surrounding { get; private set; }
+
         /// <summary>What resists velocities and rates of strain, or null.</summary>
         public RodDamping? Damping { get; }
 
@@ -202,9 +205,9 @@ namespace Guidewire.Core
             _inertia.BeginStage();
             _walls?.Take(_shape);
             _terms.SetTime(_schedule, before);
-            Vector3d[]? around = _walls?.Carry(_shape, _isEuler ? h : 0.0);
-            _terms.Walls()?.Barrier.BeginStage(_inertia.FreePositions, _velocityHistory, h, around);
-            Damping?.SetSurrounding(around);
+            Surrounding = _walls?.Carry(_shape, _isEuler ? h : 0.0);
+            _terms.Walls()?.Barrier.BeginStage(_inertia.FreePositions, _velocityHistory, h, Surrounding);
+            Damping?.SetSurrounding(Surrounding);
             _loads = _schedule.Loads.SumAt(before, _terms.Mass.Total) + _terms.Followers.Force.Force.Length;
             string? failure = Frames.Turn(_shape, time, out bool inParts);
             if (failure != null)

@@ -89,6 +89,22 @@ namespace Guidewire.Core
         /// <summary>z' of the angles to an instrument inside, rad/s; none where there is one alone.</summary>
         public double[] TwistRates => _motion.TwistRates;
 
+        /// <summary>Power by which moving blood drags the wire along, W: of massDamping, on the blood's own
+        /// way.</summary>
+        public double DragPower
+        {
+            get
+            {
+                double sum = 0.0;
+                for (int i = 0; i <= Shape.ElementCount && _stage.Surrounding != null; i++)
+                {
+                    Vector3d blood = _stage.Surrounding[i];
+                    sum += _terms.Mass.Nodal[i] * Vector3d.Dot(blood - Velocities[i], blood);
+                }
+                return _terms.Rod.MassDamping * sum;
+            }
+        }
+
         /// <summary>The time, s.</summary>
         public double Time { get; private set; }
 

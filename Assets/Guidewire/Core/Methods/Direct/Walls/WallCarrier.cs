@@ -74,15 +74,15 @@ namespace Guidewire.Core
             return Around(since);
         }
 
-        /// <summary>How fast the first moving wall, or the blood in it, goes at the nodes that were taken, m/s; null
-        /// where nothing moves.</summary>
+        /// <summary>How fast the first moving wall, and the blood in it, goes at the nodes that were taken, m/s; null
+        /// where no wall that is around the wire moves.</summary>
         /// <param name="since">Over which time before the present one, s, as the scheme finds velocities too; 0: at
         /// it.</param>
         public Vector3d[]? Around(double since)
         {
-            if (!_isTaken)
+            if (!_isTaken || !IsAround(_barrier.Fields.Carrier))
             {
-                return null;
+                return null;    // the blood does not go with an obstacle
             }
             int first = _barrier.Fields.Carrier;
             _barrier.Fields.SetVelocities(first, _rest[first], _first, _count, since, _velocity);
@@ -113,6 +113,6 @@ namespace Guidewire.Core
             return carrier;
         }
 
-        private bool IsAround(int w) => _barrier.Walls[w].IsSurface || _barrier.Walls[w] is TubeShape;
+        private bool IsAround(int w) => !(_barrier.Walls[w] is ConvexObstacle || _barrier.Walls[w] is ConeShape);
     }
 }

@@ -24,6 +24,7 @@ namespace Guidewire.Core
         private readonly Vector3d[] _forces;   // of the walls where the part begins, N; empty where none moves
         private readonly Vector3d[] _ways;     // of the walls, units
         private double _partBegan;             // s
+        private double _byBlood;               // work of its drag, J
         private bool _hasForces;               // those of the part that comes next
         private readonly double[] _clearance;  // of elements from all walls at least, where a part begins, units
 
@@ -69,8 +70,8 @@ namespace Guidewire.Core
         /// step begins and ends, times the ways of the wall at these nodes.</summary>
         public double Work { get; private set; }
 
-        /// <summary>The most that <see cref="Work"/> has been, J.</summary>
-        public double MaxWork { get; private set; }
+        /// <summary>The most that moving walls and the blood in them have put into the wire, J.</summary>
+        public double MaxPutIn { get; private set; }
 
         /// <inheritdoc/>
         public ContactShape[] Walls => _barrier.Walls;
@@ -96,7 +97,8 @@ namespace Guidewire.Core
         }
 
         /// <summary>Takes the shape at the end of a part of the step.</summary>
-        public void AddPart(RodShape shape)
+        /// <param name="dragPower">By which moving blood drags the wire along at its end, W.</param>
+        public void AddPart(RodShape shape, double dragPower)
         {
             if (_walls.Self?.TakeNear() == true)
             {
@@ -117,6 +119,8 @@ namespace Guidewire.Core
             SetClearances(shape);
             BeginWork(shape);
             AddWork(_to, began, _partBegan);
+            _byBlood += dragPower * (_partBegan - began);
+            MaxPutIn = Math.Max(MaxPutIn, Work + _byBlood);
         }
 
         private void BeginWork(RodShape shape)
@@ -146,7 +150,6 @@ namespace Guidewire.Core
                 {
                     Work += 0.5 / _units * Vector3d.Dot(_forces[i], _ways[i]);
                 }
-                MaxWork = Math.Max(MaxWork, Work);
             }
         }
 
@@ -257,7 +260,8 @@ namespace Guidewire.Core
         public void SerializeWork(Snapshot snapshot)
         {
             Work = snapshot.Serialize(Work);
-            MaxWork = snapshot.Serialize(MaxWork);
+            MaxPutIn = snapshot.Serialize(MaxPutIn);
+            snapshot.Serialize(ref _byBlood);
             snapshot.Serialize(ref _partBegan);
             snapshot.Serialize(ref _hasForces);
             snapshot.Serialize(_forces, _rod.ElementCount + 1);

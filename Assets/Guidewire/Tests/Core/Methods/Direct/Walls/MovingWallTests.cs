@@ -160,6 +160,79 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
+        public void VesselThatMovesAwayFromTheHeldEnd_EndsTheRun()
+        {
+            SimulationParameters parameters = Clamped(new Vector3d(30.0, 0.0, 0.0));
+            Simulation simulation = Simulation.Create(parameters);
+            for (int k = 0; k < 100 && simulation.Outcome == Outcome.Running; k++)
+            {
+                simulation.Step();
+            }
+            Assert.That(simulation.Outcome, Is.EqualTo(Outcome.Failed));
+            Assert.That(simulation.Reason, Does.Contain("the vessel has moved away from the end that is held"));
+        }
+
+        /// <summary>Blood that goes along with the walls drags a clamped wire that touches none of them, and no scheme
+        /// takes its motion for one that comes from nowhere.</summary>
+        [Test]
+        public void BloodInAMovingVessel_DragsAWireThatTouchesNothing([ValueSource(nameof(Integrators))]
+            Integrator integrator, [Values(1.0, 20.0)] double frequency)
+        {
+            SimulationParameters parameters = Clamped(new Vector3d(4.0, 0.0, 0.0), 1.0 / frequency);
+            parameters.Method.Integrator = integrator;
+            parameters.Method.TimeStep = 0.02 / frequency;
+            Simulation simulation = Simulation.Create(parameters);
+            Go(simulation, 80);
+            double farthest = 0.0;
+            for (int k = 0; k < 50; k++)
+            {
+                Go(simulation, 1);
+                farthest = Math.Max(farthest, Math.Abs(simulation.State.Positions[30].X));
+            }
+            if (frequency == 1.0)
+            {
+                // So slow that the tip is where a cantilever's is under the drag, q L^4/(8 EI), q = a m A w.
+                double load = 20.0 * 6450.0 * Math.PI * 4e-8 * 4e-3 * 2.0 * Math.PI;
+                double stiffness = parameters.Material.YoungsModulus * Math.PI / 4.0 * Math.Pow(0.2e-3, 4.0);
+                double tip = 1e3 * load * Math.Pow(0.06, 4.0) / (8.0 * stiffness);
+                Assert.That(farthest, Is.EqualTo(tip).Within(0.01 * tip), "mm");
+            }
+            Assert.That(farthest, Is.LessThan(4.5), "mm");
+        }
+
+        [Test]
+        public void AnotherHeartRate_GoesOnFromThePhaseThatItFinds()
+        {
+            SimulationParameters parameters = Clamped(Vector3d.UnitX);
+            Simulation simulation = Simulation.Create(parameters);
+            Go(simulation, 40);
+            SimulationParameters faster = parameters.Copy();
+            faster.Scene.Walls = WallScenes.Tube(-10.0, 200.0, 5.0);
+            faster.Scene.Walls[0].Motion = Clamped(Vector3d.UnitX, 0.4).Scene.Walls[0].Motion;
+            Simulation changed = simulation.Continue(faster);
+            double phase = simulation.FieldOf(0)!.PhaseOf(0);
+            Assert.That(changed.FieldOf(0)!.PhaseOf(0), Is.EqualTo(phase).Within(1e-12));
+            Go(changed, 1);
+            Assert.That(changed.FieldOf(0)!.PhaseOf(0),
+                Is.EqualTo(phase + parameters.Method.TimeStep / 0.4).Within(1e-12));
+        }
+
+        private static SimulationParameters Clamped(Vector3d translation, double period = 1.0)
+        {
+            SimulationParameters parameters = WallScenes.Wire(30, 0.2e-3);
+            parameters.Scene.GuidewireLength = 60.0;
+            parameters.Scene.GuidewireOffset = 0.0;
+            parameters.Scene.Walls = WallScenes.Tube(-10.0, 200.0, 5.0);
+            parameters.Scene.Walls[0].Motion = new WallMotion(new[] { MotionCycle.Sine(period, 0.0, translation,
+                Vector3d.Zero, Vector3d.Zero) }, Array.Empty<Vector3d[]>(), 1.0, 0.25 * period);
+            parameters.Drive.Kind = Drive.Hold;
+            parameters.Drive.Displacement = 0.0;
+            parameters.Material.MassDamping = 20.0;
+            parameters.Method.MaxSimulationSteps = 1000;
+            return parameters;
+        }
+
+        [Test]
         public void Restored_ItGoesOnWithTheSameBits()
         {
             SimulationParameters parameters = InBeatingArch(0.1);

@@ -118,8 +118,8 @@ namespace Guidewire.Core.Tests
             var terms = new WallTerms(barrier, null, new SupportSpring(rod, HubLimit.None), false);
             var monitor = new WallMonitor(rod, terms, 1.0);
             monitor.BeginStep(Shape(from));
-            monitor.AddPart(Shape(to));
-            monitor.AddPart(Shape(to));
+            monitor.AddPart(Shape(to), 0.0);
+            monitor.AddPart(Shape(to), 0.0);
             return monitor;
         }
 
