@@ -31,7 +31,7 @@ namespace Guidewire.Core
 
         /// <summary>Takes where the wire is; the walls are where they were then.</summary>
         /// <returns>Whether any wall moves.</returns>
-        public bool Take(RodShape shape)
+        public bool Carry(RodShape shape)
         {
             _isTaken = _barrier.Fields.Carrier >= 0;
             _count = shape.ElementCount + 1;

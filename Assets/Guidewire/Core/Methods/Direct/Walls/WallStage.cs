@@ -33,10 +33,10 @@ namespace Guidewire.Core
         }
 
         /// <summary>Takes where the wire is, before walls go to where they are in this stage.</summary>
-        public void Take(RodShape shape)
+        public void Carry(RodShape shape)
         {
             _lag = null;
-            if (_carrier.Take(shape))
+            if (_carrier.Carry(shape))
             {
                 _prediction.TakeLengths(shape);
                 _lag = _terms.Walls()!.Spring.LagOf(shape);
