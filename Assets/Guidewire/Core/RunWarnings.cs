@@ -146,10 +146,10 @@ namespace Guidewire.Core
         private void TakeStrands(RodState state, CoaxialRecord? coaxial, double time)
         {
             int k = 0;
-            _strands[k++].Take(state.Positions, time);
+            _strands[k++].Follow(state.Positions, time);
             for (CoaxialRecord? one = coaxial; one != null; one = one.Inside)
             {
-                _strands[k++].Take(one.Positions, time);
+                _strands[k++].Follow(one.Positions, time);
             }
         }
 

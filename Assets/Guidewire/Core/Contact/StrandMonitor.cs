@@ -65,7 +65,7 @@ namespace Guidewire.Core
 
         /// <summary>Takes where the nodes are, and what lies between that and the last look.</summary>
         /// <param name="time">s.</param>
-        public void Take(Vector3d[] x, double time)
+        public void Follow(Vector3d[] x, double time)
         {
             _pairs.FollowLengths();
             _pairs.Follow(_from);

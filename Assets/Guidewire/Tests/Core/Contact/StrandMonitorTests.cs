@@ -21,7 +21,7 @@ namespace Guidewire.Core.Tests
             double radius = 8.0;
             double pitch = pitchInDiameters * diameter;
             double turn = Math.Sqrt(Math.Pow(2.0 * Math.PI * radius, 2.0) + pitch * pitch);
-            monitor.Take(Curve(s => new Vector3d(radius * Math.Cos(2.0 * Math.PI * s / turn),
+            monitor.Follow(Curve(s => new Vector3d(radius * Math.Cos(2.0 * Math.PI * s / turn),
                 radius * Math.Sin(2.0 * Math.PI * s / turn), pitch * s / turn)), 0.5);
             Assert.That(Warning(monitor).HasValue, Is.EqualTo(overlaps), Warning(monitor)?.Text);
             if (overlaps)
@@ -42,7 +42,7 @@ namespace Guidewire.Core.Tests
             double r = radiusInDiameters * diameter;
             double arc = Math.PI * r;
             double from = 0.5 * (Length - arc);
-            monitor.Take(Curve(s => s < from ? new Vector3d(0.0, -r, s - from)
+            monitor.Follow(Curve(s => s < from ? new Vector3d(0.0, -r, s - from)
                 : s < from + arc ? new Vector3d(0.0, -r * Math.Cos((s - from) / r), r * Math.Sin((s - from) / r))
                 : new Vector3d(0.0, r, from + arc - s)), 0.5);
             Assert.That(Warning(monitor), Is.Null);
@@ -53,7 +53,7 @@ namespace Guidewire.Core.Tests
         {
             StrandMonitor monitor = Monitor(out double diameter);
             // Two straight legs that cross at 90 mm from either end.
-            monitor.Take(Curve(s => s < 0.5 * Length ? new Vector3d(0.0, 0.4 * (s - 90.0), 0.9 * s)
+            monitor.Follow(Curve(s => s < 0.5 * Length ? new Vector3d(0.0, 0.4 * (s - 90.0), 0.9 * s)
                 : new Vector3d(0.4 * diameter, 0.4 * (Length - s - 90.0) * -1.0, 0.9 * (Length - s))), 1.25);
             Assert.That(Warning(monitor)!.Value.Text, Does.Contain("t = 1.25 s").And.Contain("at 90 and 150 units")
                 .And.Contain(" are 0.4 of a diameter"));
@@ -64,7 +64,7 @@ namespace Guidewire.Core.Tests
         {
             StrandMonitor monitor = Monitor(out _);
             double r = Length / (2.0 * Math.PI);
-            monitor.Take(Curve(s => new Vector3d(0.0, r * Math.Cos(s / r), r * Math.Sin(s / r))), 0.5);
+            monitor.Follow(Curve(s => new Vector3d(0.0, r * Math.Cos(s / r), r * Math.Sin(s / r))), 0.5);
             Assert.That(Warning(monitor), Is.Null);
         }
 
@@ -98,9 +98,9 @@ namespace Guidewire.Core.Tests
             var passages = Passages(x);
             for (int step = 1; step <= steps; step++)
             {
-                passages.Take(Loop(across, 0.5 - 1.0 * step / steps), 0.0);
+                passages.Follow(Loop(across, 0.5 - 1.0 * step / steps), 0.0);
             }
-            passages.Take(Loop(across, -0.5), 0.0);
+            passages.Follow(Loop(across, -0.5), 0.0);
             Assert.That(passages.Passages, Is.EqualTo(expected));
         }
 
@@ -108,10 +108,10 @@ namespace Guidewire.Core.Tests
         public void ThereAndBackWithinALook_IsNoPassage_AndEachWayIsOne()
         {
             var passages = Passages(Loop(0.3, 0.5));
-            passages.Take(Loop(0.3, 0.51), 0.0);
+            passages.Follow(Loop(0.3, 0.51), 0.0);
             Assert.That(passages.Passages, Is.Zero);
-            passages.Take(Loop(0.3, -0.5), 0.0);
-            passages.Take(Loop(0.3, 0.5), 0.0);
+            passages.Follow(Loop(0.3, -0.5), 0.0);
+            passages.Follow(Loop(0.3, 0.5), 0.0);
             Assert.That(passages.Passages, Is.EqualTo(2));
         }
 
@@ -132,7 +132,7 @@ namespace Guidewire.Core.Tests
             var passages = Passages(At(0.0));
             for (int step = 1; step <= 40; step++)
             {
-                passages.Take(At(0.5 * step), 0.0);
+                passages.Follow(At(0.5 * step), 0.0);
             }
             Assert.That(passages.Passages, Is.Zero);
         }

@@ -63,8 +63,7 @@ namespace Guidewire.Core
             }
             _forces[0] += terms.SheathForce(shape);
             _records[0].Record(joints, terms, shape, instruments[0].Shape, _drives[0], _drives[wire], torque,
-                wireTorque,
-                inside);
+                wireTorque, inside);
             double around = 0.0;
             double wireForce = _forces[wire] + _records[wire - 1].FrictionForce;
             for (int i = 0; i < wire; i++)

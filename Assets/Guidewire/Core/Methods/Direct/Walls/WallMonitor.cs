@@ -102,7 +102,7 @@ namespace Guidewire.Core
         {
             if (_walls.Self?.TakeNear() == true)
             {
-                _strands!.Take(shape.X, 0.0);
+                _strands!.Follow(shape.X, 0.0);
             }
             else
             {
