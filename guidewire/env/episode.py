@@ -27,11 +27,12 @@ class Part:
     Attributes
     ----------
     left : distance of its tip to the target along the centreline, units.
-    largest_force, impulse, path, inserted, retracted, turned : as of Report, its own.
+    largest_force, strand_force, impulse, path, inserted, retracted, turned : as of Report, its own.
     """
 
     left: float = float("inf")
     largest_force: float = 0.0
+    strand_force: float = 0.0
     impulse: float = 0.0
     path: float = 0.0
     inserted: float = 0.0
@@ -51,6 +52,7 @@ class Report:
     reason : what the simulation said where it ended the episode.
     time : simulated, s.
     largest_force : of a wall on one sphere of any instrument after any time step, N.
+    strand_force : largest force of an instrument's own strands on one of its spheres after any time step, N.
     impulse : of all walls, the sum over spheres and time steps of |F| dt, N s.
     forces : largest force of a wall on one sphere after each time step, N.
     parts : of each instrument, the wire first.
@@ -77,6 +79,11 @@ class Report:
     def largest_force(self) -> float:
         """Return the largest force of a wall on one sphere after any time step, N."""
         return max(part.largest_force for part in self.parts)
+
+    @property
+    def strand_force(self) -> float:
+        """Return the largest force of an instrument's own strands on one of its spheres, N."""
+        return max(part.strand_force for part in self.parts)
 
     @property
     def impulse(self) -> float:
@@ -121,6 +128,8 @@ class Report:
             largest = float(forces.max())
             most.append(largest)
             part.largest_force = max(part.largest_force, largest)
+            if other.strand_forces is not None:
+                part.strand_force = max(part.strand_force, float(np.linalg.norm(other.strand_forces, axis=1).max()))
             part.impulse += float(forces.sum()) * dt
             part.path += math.dist(other.positions[-1].tolist(), one.positions[-1].tolist())
             insertion = other.hub.insertion - one.hub.insertion    # less than asked for where another hub stops it
@@ -134,7 +143,7 @@ class Report:
     def as_info(self) -> dict[str, Any]:
         """Return for `info` numbers, "forces" as a list, and of several instruments "instruments" by name."""
         shown = {key: value for key, value in vars(self).items() if key not in ("parts", "forces")}
-        shown |= {key: getattr(self, key) for key in ("safe_success", "left", "largest_force", "impulse", "path",
+        shown |= {key: getattr(self, key) for key in ("safe_success", "left", "largest_force", "strand_force", "impulse", "path",
                                                       "inserted", "retracted", "turned")}
         shown["forces"] = list(self.forces)
         if len(self.parts) > 1:

@@ -115,7 +115,7 @@ class CatheterState:
     overlap : length over which that is inside, m.
     place : in the vessel; None where the scene has no inlet.
     contact_forces, velocities, angular_velocities : (m+1, 3), (m+1, 3) and (m, 3), as of `State`.
-    wall_displacements : (m, 3), as of `State`.
+    strand_forces, wall_displacements : (m+1, 3) and (m, 3), as of `State`.
     """
 
     positions: np.ndarray
@@ -132,6 +132,7 @@ class CatheterState:
     contact_forces: np.ndarray
     velocities: np.ndarray
     angular_velocities: np.ndarray
+    strand_forces: np.ndarray | None
     wall_displacements: np.ndarray | None
 
 
@@ -169,6 +170,7 @@ class State:
         N; 0 where there are no walls. Of instruments in one another the outermost one has it.
     reaction : (3,), force of the held first sphere on the wire in the last step; with a material of its support, N.
         None where the method does not state it (xpbd, and gains without walls).
+    strand_forces : (n+1, 3), force of the wire's other strands on each sphere, N; None where it does not touch itself.
     wall_displacements : (n, 3), how far soft walls are displaced at each element, m; None where all are rigid.
     curvature, couple : (n+1, 3), of a material: rad/m about d1, d2 and d3 at each joint, and N m; else None.
     strain, force : (n, 3), of a material: shear and stretch of each element, and force in it, N; else None.
@@ -190,6 +192,7 @@ class State:
     angular_velocities: np.ndarray
     contact_forces: np.ndarray
     reaction: np.ndarray | None
+    strand_forces: np.ndarray | None
     wall_displacements: np.ndarray | None
     curvature: np.ndarray | None
     couple: np.ndarray | None
@@ -328,7 +331,7 @@ def fill(state: State, part: int, arrays: Mapping[str, np.ndarray]) -> None:
             angular_velocities=arrays["angularVelocities"],
             contact_forces=arrays["contactForces"] if "contactForces" in arrays else np.zeros_like(positions),
             reaction=arrays["reaction"][0] if "reaction" in arrays else None,
-            wall_displacements=arrays.get("wallDisplacements"))
+            strand_forces=arrays.get("strandForces"), wall_displacements=arrays.get("wallDisplacements"))
     elif part == INSTRUMENTS:
         vars(state).update(hub=Hub(**_members("hub", arrays["hub"][0])) if "hub" in arrays else None,
                            catheters=_catheters(arrays), place=_place(arrays, ""))

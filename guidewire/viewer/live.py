@@ -209,7 +209,7 @@ class LiveFrames:
             "step_time": np.array([1e3 * cost]), "real_time": np.array([real_time]),
             **{name: None if values is None else values[None]
                for name, values in (("curvature", state.curvature), ("force", state.force), ("couple", state.couple),
-                                    ("reaction", state.reaction))},
+                                    ("reaction", state.reaction), ("strand_forces", state.strand_forces))},
             "lumen": lumen_of([state.place]), **read_off(state),
         }
 

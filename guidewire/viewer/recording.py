@@ -200,7 +200,7 @@ def make_channels(units: Units, numbers: Mapping[str, np.ndarray | None]) -> lis
     numbers : "step", "time" (k,), s; "positions" (k, n+1, 3), units; and where they are known "orientations" (k, n, 4),
         x, y, z, w; "positions1" (k, m+1, 3) of the first catheter, and so on, and what was read off at its hub with
         "hub1." before its key; "curvature" (k, n+1, 3), rad/m; "force" (k, n, 3), N; "contact_forces" (k, n+1, 3), and
-        of the first catheter "contact_forces1"; "wall_displacements" (k, n, 3), m, the same; "reaction" (k, 3);
+        of the first catheter "contact_forces1"; "strand_forces" (k, n+1, 3), N; "wall_displacements" (k, n, 3), m, the same; "reaction" (k, 3);
         "couple" (k, n+1, 3), N m; "coreStrain" and "coreShare" (k, n+1); "kineticEnergy", "elasticEnergy" and
         "potentialEnergy" (k,), J; what a log has of the hub, (k,), with "hub." before its key; "lumen" (k, 3), as of
         `lumen_of`; "inBody" (k,), spheres out of a sheath; "step_time" (k,), ms; "real_time" (k,), times faster.
@@ -242,6 +242,9 @@ def make_channels(units: Units, numbers: Mapping[str, np.ndarray | None]) -> lis
             Channel("wallForce", "all wall forces added up", units.force, "frame",
                     sum(np.linalg.norm(own, axis=2).sum(axis=1) for own in (forces, *of_catheters.values()))),
         ]
+    if "strand_forces" in known:
+        channels.append(Channel("strandForce", "force between strands", units.force, "sphere",
+                                np.linalg.norm(known["strand_forces"], axis=2)))
     channels += [Channel(name.replace("wall_d", "wallD"), "", "units", "vector", _flat(per_unit * known[name]))
                  for name in known if name.startswith("wall_displacements")]
     if "lumen" in known:
@@ -446,6 +449,7 @@ def _read_more(run: Run, steps: np.ndarray, catheters: int) -> dict[str, np.ndar
     shown = {"contactForces": "contact_forces", "wallDisplacements": "wall_displacements"}    # also of catheters
     names = {name: shown.get(name, name) for name in (
         "orientations", "reaction", "curvature", "force", "couple", "inBody", *ENERGIES, *CORE, *shown)}
+    names["strandForces"] = "strand_forces"
     names |= {name: f"hub.{_ROWS[name].key}" for name in _HUB}
     for number in range(catheters):
         names |= {catheter_name(name, number): f"{to}{number + 1}" for name, to in shown.items()}

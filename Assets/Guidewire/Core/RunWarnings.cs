@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.Globalization;
+using System.Linq;
 
 namespace Guidewire.Core
 {
@@ -15,27 +16,25 @@ namespace Guidewire.Core
 
         private const double NearLimit = 0.9;       // of a soft wall's limit
 
-        private readonly bool _isMaterial;
+        private readonly bool _hasLead;             // whether the first sphere starts ahead of the wire
         private readonly double _length;            // at rest, units
         private readonly double _depth;             // that contact allows, units
         private readonly RimMonitor _rims;
-        private readonly SelfOverlap _overlap;
-        private readonly SimulationParameters _parameters;
-        private readonly bool _keepsApart;          // strands of an instrument
-        private readonly List<StrandPassages> _strands = new List<StrandPassages>();   // of the wire, then of catheters
+        private readonly bool _keepsApart;          // strands of an instrument, and counts passages in its own steps
+        private readonly StrandMonitor[] _strands;  // of the wire, then of catheters
 
         /// <summary>Collects the warnings of a run of these parameters.</summary>
         /// <param name="stepper">Says what covers the tip, and where walls are, for <see cref="RimMonitor"/>.</param>
         public RunWarnings(SimulationParameters parameters, TimeStepper stepper)
         {
-            _parameters = parameters;
             _length = parameters.Scene.GuidewireLength;
-            _overlap = new SelfOverlap(parameters);
             _rims = new RimMonitor(Array.ConvertAll(parameters.Scene.Walls,
                 wall => wall.AtLimit(1.0 / parameters.Scene.MetresPerUnit)), stepper.IsTipCovered, stepper.FieldOf);
             MethodTraits method = MethodTable.Of(parameters.Method.Solver);
-            _isMaterial = method.TakesMaterial;
+            _hasLead = !method.TakesMaterial;
             _keepsApart = method.HasBarriers && parameters.Contact.TouchesItself(parameters.Scene.Walls.Length);
+            _strands = parameters.Scene.Catheters.Select(one => parameters.OfCatheter(one, Vector3d.UnitZ))
+                .Prepend(parameters).Select(one => StrandsOf(one, method.TakesMaterial, _keepsApart)).ToArray();
             _depth = method.DepthInRadii * (method.TakesMaterial
                 ? parameters.Material.WireRadius / parameters.Scene.MetresPerUnit : parameters.Contact.SphereRadius);
         }
@@ -55,10 +54,9 @@ namespace Guidewire.Core
             {
                 yield return WarningTable.Penetration.With(contacts.MaxPenetration, _depth);
             }
-            TakeStrands(state, coaxial, true);
-            if (StrandPassages > 0)
+            if (StrandPassages(contacts) > 0)
             {
-                yield return WarningTable.StrandPassages.With(StrandPassages);
+                yield return WarningTable.StrandPassages.With(StrandPassages(contacts));
             }
             double change = LengthOf(state) / _length - 1.0;
             if (Math.Abs(change) > OddStretch)
@@ -71,9 +69,14 @@ namespace Guidewire.Core
                     (extremes.IsFirstStep(extremes.StrainTime) ? "in the first step, at t = " : "at t = ")
                     + extremes.StrainTime.ToString("G4", CultureInfo.InvariantCulture));
             }
-            if (_overlap.Warning is RunWarning overlap)
+            for (int k = 0; k < _strands.Length; k++)
             {
-                yield return overlap;
+                string name = k == 0 ? "the wire" : _strands.Length == 2 ? "the catheter" : "catheter " + k;
+                if (_strands[k].WarningOf(name) is RunWarning overlap)
+                {
+                    yield return overlap;
+                    break;
+                }
             }
             if (extremes != null && extremes.LawShare > 1.0)
             {
@@ -105,85 +108,79 @@ namespace Guidewire.Core
         }
 
         /// <summary>How often instruments have passed through themselves so far.</summary>
-        public long StrandPassages
-        {
-            get
-            {
-                long sum = 0;
-                _strands.ForEach(one => sum += one.Total);
-                return sum;
-            }
-        }
+        /// <param name="contacts">Null where there are no walls.</param>
+        public long StrandPassages(ContactRecord? contacts) =>
+            _keepsApart && contacts != null ? contacts.StrandPassages : _strands.Sum(one => one.Passages);
 
         /// <summary>The wire starts in this state.</summary>
         /// <param name="coaxial">Null without a catheter.</param>
         public void Begin(RodState state, CoaxialRecord? coaxial)
         {
             _rims.Begin(state);
-            if (_isMaterial)    // with gains the first sphere has moved ahead of the wire
+            BeginStrands(state, coaxial);
+            if (!_hasLead)
             {
-                TakeOverlap(state, coaxial, 0.0);
-            }
-            _strands.Add(new StrandPassages(_isMaterial
-                ? _parameters.Material.WireRadius / _parameters.Scene.MetresPerUnit : _parameters.Contact.SphereRadius,
-                state.Positions));
-            for (CoaxialRecord? one = coaxial; one != null; one = one.Inside)
-            {
-                Catheter catheter = _parameters.Scene.Catheters[_strands.Count - 1];
-                _strands.Add(new StrandPassages(
-                    catheter.Material.WireRadius / _parameters.Scene.MetresPerUnit, one.Positions));
+                TakeStrands(state, coaxial, 0.0);
             }
         }
 
         /// <summary>Takes the state at the end of a step.</summary>
         /// <param name="coaxial">Null without a catheter.</param>
         /// <param name="time">s.</param>
-        /// <param name="mayTouch">Whether strands may have come near one another.</param>
-        public void Update(RodState state, ContactRecord? contacts, CoaxialRecord? coaxial, double time, bool mayTouch)
+        public void Update(RodState state, ContactRecord? contacts, CoaxialRecord? coaxial, double time)
         {
             _rims.Update(state, contacts, time);
-            TakeOverlap(state, coaxial, time);
-            if (mayTouch)
-            {
-                TakeStrands(state, coaxial, false);
-                return;
-            }
-            _strands[0].Begin(state.Positions);
-            int k = 1;
+            TakeStrands(state, coaxial, time);
+        }
+
+        private void BeginStrands(RodState state, CoaxialRecord? coaxial)
+        {
+            int k = 0;
+            _strands[k++].Begin(state.Positions);
             for (CoaxialRecord? one = coaxial; one != null; one = one.Inside)
             {
                 _strands[k++].Begin(one.Positions);
             }
         }
 
-        private void TakeOverlap(RodState state, CoaxialRecord? coaxial, double time)
+        private void TakeStrands(RodState state, CoaxialRecord? coaxial, double time)
         {
-            _overlap.Update(0, state.Positions, time);
-            int k = 1;
+            int k = 0;
+            _strands[k++].Take(state.Positions, time);
             for (CoaxialRecord? one = coaxial; one != null; one = one.Inside)
             {
-                _overlap.Update(k++, one.Positions, time);
+                _strands[k++].Take(one.Positions, time);
             }
         }
 
-        private void TakeStrands(RodState state, CoaxialRecord? coaxial, bool isLast)
+        private static StrandMonitor StrandsOf(SimulationParameters instrument, bool hasMaterial, bool keepsApart)
         {
-            _strands[0].Update(state.Positions, _keepsApart, isLast);
-            int k = 1;
-            for (CoaxialRecord? one = coaxial; one != null; one = one.Inside)
+            double[] lengths = ElementLayout.Lengths(instrument, 1.0, out double[] station);
+            var radius = new double[lengths.Length];
+            for (int j = 0; j < lengths.Length; j++)
             {
-                _strands[k++].Update(one.Positions, _keepsApart, isLast);
+                radius[j] = hasMaterial
+                    ? CrossSection.At(instrument.Material, 0.5 * (station[j] + station[j + 1])).Radius
+                        / instrument.Scene.MetresPerUnit
+                    : instrument.Contact.SphereRadius;
             }
+            return new StrandMonitor(lengths, radius, lengths.Length, keepsApart);
         }
 
         /// <summary>Writes or restores what was seen.</summary>
         /// <param name="state">Where the wire is.</param>
-        public void Serialize(Snapshot snapshot, RodState state)
+        /// <param name="coaxial">Null without a catheter.</param>
+        public void Serialize(Snapshot snapshot, RodState state, CoaxialRecord? coaxial)
         {
             _rims.Serialize(snapshot, state);
-            _overlap.Serialize(snapshot);
-            snapshot.Section(string.Join(", ", _strands.ConvertAll(one => one.NodeCount)) + " nodes",
-                part => _strands.ForEach(one => one.Serialize(part)));
+            foreach (StrandMonitor one in _strands)
+            {
+                one.Serialize(snapshot);
+            }
+            if (!snapshot.IsWritten)
+            {
+                BeginStrands(state, coaxial);
+            }
         }
 
         private static double LengthOf(RodState state)

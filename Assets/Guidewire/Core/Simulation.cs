@@ -82,7 +82,7 @@ namespace Guidewire.Core
 
         /// <summary>Points of the wire that passed a wall, and pairs of elements of an instrument that
         /// crossed.</summary>
-        public long Passages => (Contacts?.Passages ?? 0) + _warnings.StrandPassages;
+        public long Passages => (Contacts?.Passages ?? 0) + _warnings.StrandPassages(Contacts);
 
         /// <summary>What contact with walls came to, and the force at the first sphere; null in a scene without walls
         /// whose parameters do not ask for reactions.</summary>
@@ -207,7 +207,7 @@ namespace Guidewire.Core
             {
                 _clock.Advance();
             }
-            _warnings.Update(State, Contacts, Coaxial(), Time, _stepper.MayTouchItself);
+            _warnings.Update(State, Contacts, Coaxial(), Time);
             Outcome = _stopRule.Check(State, _stepper, StepCount);
             if (Outcome == Outcome.Finished || Outcome == Outcome.Converged)
             {
@@ -403,10 +403,10 @@ namespace Guidewire.Core
             next.Instruments.Write(next.State);
             var snapshot = new Snapshot();
             _clock.Serialize(snapshot);
-            _warnings.Serialize(snapshot, State);
+            _warnings.Serialize(snapshot, State, Coaxial());
             Snapshot read = snapshot.ToRead();
             next._clock.Serialize(read);
-            next._warnings.Serialize(read, next.State);
+            next._warnings.Serialize(read, next.State, next.Coaxial());
             return next;
         }
 
@@ -437,7 +437,7 @@ namespace Guidewire.Core
             _clock.Serialize(snapshot);
             State.Serialize(snapshot);
             _stepper.Serialize(snapshot);
-            _warnings.Serialize(snapshot, State);
+            _warnings.Serialize(snapshot, State, Coaxial());
         }
     }
 }

@@ -1,3 +1,4 @@
+using System;
 using System.Collections.Generic;
 
 namespace Guidewire.Core
@@ -20,11 +21,17 @@ namespace Guidewire.Core
             }
         }
 
+        /// <summary>Writes or restores them, and the forces of strands.</summary>
         internal static void Serialize(Simulation run, Snapshot snapshot)
         {
             foreach (Vector3d[] own in Of(run))
             {
                 snapshot.Serialize(own);
+            }
+            snapshot.Serialize(run.Contacts?.StrandForces ?? Array.Empty<Vector3d>());
+            foreach (CoaxialRecord catheter in run.Catheters())
+            {
+                snapshot.Serialize(catheter.StrandForces);
             }
         }
     }

@@ -41,7 +41,11 @@ def test_strand_through_strand_is_one_passage_and_a_jump_of_two(sense: float) ->
     frames = np.array([_strands(height) for height in sense * np.linspace(0.2, -0.2, 8)])
     found = passages(frames)
     assert len(found) == 1
-    assert abs(found[0].writhe) == pytest.approx(2.0, abs=0.2)
+    assert abs(found[0].writhe) == pytest.approx(2.0, abs=0.2) and not found[0].may_be_round_the_tip
+    far = _strands(-0.2 * sense)
+    far[4] += [0.0, 3.0, 0.0]
+    coarse, = passages(np.array([frames[0], far]))
+    assert coarse.may_be_round_the_tip
     assert sum(len(crossings(a, b)) for a, b in zip(frames[:-1], frames[1:], strict=True)) == 1
 
 

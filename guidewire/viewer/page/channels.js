@@ -89,6 +89,10 @@ export function makeChannels(rules, parameters, state, hasWalls, measured) {
     add("wallForce", "all wall forces added up", force, "frame",
       [[forces, ...ofCatheters].flatMap(sizesOf).reduce((sum, size) => sum + size, 0)]);
   }
+  if (state.strandForces) {
+    const own = state.strandForces;
+    add("strandForce", "force between strands", force, "sphere", rows(own).map((i) => Math.sqrt(dot(own, i, i))));
+  }
   for (const name of ["wallDisplacements", ...catheters.map((k) => `wallDisplacements${k}`)]) {
     if (state[name]) add(name, "", "units", "vector", state[name].map((value) => perUnit * value));
   }

@@ -39,6 +39,7 @@ export function rowsOf(recording, score, more) {
     ["radiation", say("{0} with the beam on, {1} pictures", seconds(more.beam), Math.round(more.pictures))],
     ["contrast", `${fixed(more.contrast, 1)} ml`],
     ...(forces ? [["largest force at the hub", newtons(score.hubForce)], ["largest wall force", newtons(score.wallForce)],
+      ...(score.strandForce > 0 ? [["largest force of the wire on itself", newtons(score.strandForce)]] : []),
       ["wall force in the yellow band", seconds(score.caution)], ["wall force in the red band", seconds(score.stop)]] : []),
     ["way of the tip", target ? say("{0} for {1} from the inlet", mm(score.path), mm(target.distances.at(-1) ?? 0)) : mm(score.path)],
     ["new attempts", String(score.retries)],

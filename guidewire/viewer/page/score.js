@@ -46,7 +46,7 @@ export class Score {
     /** s. */
     this.reachedAt = NaN;
     /** Largest forces so far, N. */
-    this.hubForce = this.wallForce = 0;
+    this.hubForce = this.wallForce = this.strandForce = 0;
     /** Way of the tip, units. */
     this.path = 0;
     /** How often the wire was withdrawn to try anew. */
@@ -115,6 +115,10 @@ export class Score {
     else if (force >= caution) this.caution += seconds;
     this.time = time;
     this.wallForce = Math.max(this.wallForce, force || 0);
+    if (recording.channels.has("strandForce")) {
+      this.strandForce = recording.at("strandForce", frame).reduce((most, value) => Math.max(most, value),
+        this.strandForce);
+    }
     const at = (/** @type {string} */ name) => (recording.channels.has(name) ? recording.at(name, frame)[0] : NaN);
     const hub = Math.abs(at("hubForce"));
     this.hubForce = Math.max(this.hubForce, hub || 0);

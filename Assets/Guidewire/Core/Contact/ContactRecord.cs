@@ -23,6 +23,7 @@ namespace Guidewire.Core
             Array.Clear(Forces, 0, Forces.Length);
             Array.Clear(ElementForces, 0, ElementForces.Length);
             Array.Clear(Displacements, 0, Displacements.Length);
+            Array.Clear(StrandForces, 0, StrandForces.Length);
         }
 
         /// <summary>Force of the walls on each of the n + 1 spheres in the last step, mass unit * unit/s^2. What a held
@@ -47,6 +48,10 @@ namespace Guidewire.Core
 
         /// <summary>Points of the wire, ten an element, that were inside before a step and outside after it.</summary>
         public long Passages { get; internal set; }
+
+        /// <summary>How often strands passed one another, counted in each part of a step by a method that keeps them
+        /// apart; else 0.</summary>
+        internal long StrandPassages { get; set; }
 
         /// <summary>Largest penetration depth of the surface of a sphere or a rod element in a wall, at the start or
         /// after a step, units; see <see cref="WireDepth"/>.</summary>
@@ -80,6 +85,10 @@ namespace Guidewire.Core
         /// sphere between two elements counts half for each. Empty with pbd.</summary>
         public Vector3d[] ElementForces { get; internal set; } = Array.Empty<Vector3d>();
 
+        /// <summary>Force of the wire's other strands on each of the n + 1 spheres in the last step, N. Empty where it
+        /// does not touch itself.</summary>
+        public Vector3d[] StrandForces { get; private set; } = Array.Empty<Vector3d>();
+
         /// <summary>Largest pressure of the walls on an element in the last step, Pa: its normal force over its length
         /// and diameter. 0 with pbd.</summary>
         public double Pressure { get; internal set; }
@@ -98,8 +107,10 @@ namespace Guidewire.Core
         /// <param name="count">Of the elements.</param>
         /// <param name="walls">Of the scene.</param>
         /// <param name="hasForces">Whether the forces on elements are recorded.</param>
-        internal void SetElements(int count, ContactShape[] walls, bool hasForces = true)
+        /// <param name="touchesItself">Whether the wire does.</param>
+        internal void SetElements(int count, ContactShape[] walls, bool hasForces, bool touchesItself)
         {
+            StrandForces = new Vector3d[touchesItself ? count + 1 : 0];
             ElementForces = new Vector3d[hasForces ? count : 0];
             Displacements = new Vector3d[HasSoft(walls) ? count : 0];
         }
@@ -121,6 +132,7 @@ namespace Guidewire.Core
         internal void CopyFrom(ContactRecord other, int offset)
         {
             Passages = other.Passages;
+            StrandPassages = other.StrandPassages;
             MaxPenetration = other.MaxPenetration;
             DriveShortfall = other.DriveShortfall;
             DriveAsked = other.DriveAsked;
@@ -137,19 +149,23 @@ namespace Guidewire.Core
             MeanDisplacement = other.MeanDisplacement;
             Copy(other.Displacements, Displacements, offset, 0, other._spheres - 1);
             Copy(other.Forces, Forces, offset, 0, other._spheres);
+            Copy(other.StrandForces, StrandForces, offset, 0, other._spheres);
             Copy(other.ElementForces, ElementForces, offset, 0, other._spheres - 1);
         }
 
         /// <summary>Copies the forces on spheres and the displacements at elements to those of another numbering.
         /// </summary>
         /// <param name="forces">Receives them; zero where there are none.</param>
+        /// <param name="strandForces">The same.</param>
         /// <param name="displacements">The same.</param>
         /// <param name="offset">Of the other numbers.</param>
         /// <param name="first">The first sphere here whose force counts.</param>
         /// <param name="firstElement">The first element that counts.</param>
-        internal void CopyTo(Vector3d[] forces, Vector3d[] displacements, int offset, int first, int firstElement)
+        internal void CopyTo(Vector3d[] forces, Vector3d[] strandForces, Vector3d[] displacements, int offset, int first,
+            int firstElement)
         {
             Copy(Forces, forces, offset, first, _spheres);
+            Copy(StrandForces, strandForces, offset, first, _spheres);
             Copy(Displacements, displacements, offset, firstElement, _spheres - 1);
         }
 
@@ -182,9 +198,13 @@ namespace Guidewire.Core
             snapshot.Serialize(ElementForces, _spheres - 1);
         }
 
-        /// <summary>The displacements of soft walls, which another run of the same wire may not have.</summary>
-        internal void SerializeDisplacements(Snapshot snapshot) =>
+        /// <summary>The displacements of soft walls and the forces of strands, which another run of the same wire may not
+        /// have.</summary>
+        internal void SerializeOptional(Snapshot snapshot)
+        {
             snapshot.Serialize(Displacements, Math.Min(Displacements.Length, _spheres - 1));
+            snapshot.Serialize(StrandForces, Math.Min(StrandForces.Length, _spheres));
+        }
 
         /// <summary>Adds what the drive asked of sphere 0 in a step, and what of it the walls prevented,
         /// units.</summary>

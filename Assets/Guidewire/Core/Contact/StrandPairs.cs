@@ -5,10 +5,8 @@ namespace Guidewire.Core
     /// <summary>The pairs of a wire's elements that may come within range of each other: a list that holds while the
     /// nodes stay near where they were when it was made.</summary>
     /// <remarks>A piece of a curve of length s that turns by less than pi has a chord of at least s cos(turn/2)
-    /// (Schur).
-    /// So most of a wire needs no look: neither neighbouring blocks of elements that turn little, nor those farther
-    /// apart
-    /// between which it does not turn back. Whether a whole wire turns by less than pi says little: its tip may be a J.
+    /// (Schur). So most of a wire needs no look: neither neighbouring blocks of elements that turn little, nor those
+    /// farther apart between which it does not turn back. Whether a whole wire turns by less than pi says little: its tip may be a J.
     /// Other blocks have their boxes compared. With d the displacement of a node since the list was made, two elements
     /// with k others between them come nearer by no more than 2 max|d|, nor by more than k + 2 times the largest
     /// difference of d between neighbouring nodes: a wire that slides along itself has the latter small.</remarks>
@@ -103,6 +101,9 @@ namespace Guidewire.Core
             }
             return false;
         }
+
+        /// <summary>Length at rest from the first node to another one.</summary>
+        public double ArcOf(int node) => _restArc[node];
 
         /// <summary>Whether two elements are far enough from each other along the wire to count as a pair.</summary>
         public bool IsPair(int j, int k) =>

@@ -139,13 +139,31 @@ namespace Guidewire.Core
             {
                 sum += i > 0 ? Crossing(shape, -1, i) : 0;
                 sum += i < n - 1 ? Crossing(shape, i, n) : 0;
-                for (int j = NearPairs.Next(_picture, n, i, i + 2, longest, longest); j < n;
-                    j = NearPairs.Next(_picture, n, i, j + 1, longest, longest))
+                for (int j = Next(n, i, i + 2, longest); j < n; j = Next(n, i, j + 1, longest))
                 {
                     sum += Crossing(shape, i, j);
                 }
             }
             return sum;
+        }
+
+        // The next element, from one on, whose middle in the picture is no farther than the longest element from that of
+        // another one; n where there is none. From one element to the next the middle goes no farther than that: what
+        // is far away stays so for a number of elements that need not be looked at.
+        private int Next(int n, int element, int from, double longest)
+        {
+            Vector3d middle = 0.5 * (_picture[element] + _picture[element + 1]);
+            int j = from;
+            while (j < n)
+            {
+                double apart = Vector3d.Distance(middle, 0.5 * (_picture[j] + _picture[j + 1])) - longest;
+                if (apart <= 0.0)
+                {
+                    return j;
+                }
+                j += Math.Max(1, (int)Math.Min(n, apart / longest));
+            }
+            return n;
         }
 
         // Of two elements, where -1 is the proximal extension and n the distal one.

@@ -89,6 +89,13 @@ namespace Guidewire.Core
         /// <summary>Largest of these forces over the element's length and diameter, Pa; NaN without walls.</summary>
         public double WallPressure { get; private set; } = double.NaN;
 
+        /// <summary>Largest normal force between two elements of the wire that touch, N; NaN where it does not touch
+        /// itself.</summary>
+        public double StrandForce { get; private set; } = double.NaN;
+
+        /// <summary>When that force was the largest, s.</summary>
+        public double StrandForceTime { get; private set; } = double.NaN;
+
         /// <summary>Largest power of friction in a step, W: friction dissipates energy, so it is never positive. NaN
         /// where no wall has friction.</summary>
         public double FrictionPower { get; private set; } = double.NaN;
@@ -229,6 +236,16 @@ namespace Guidewire.Core
             WallPressure = Larger(WallPressure, pressure);
         }
 
+        /// <summary>Takes the largest force between two elements, N; NaN where the wire does not touch itself.</summary>
+        internal void TakeStrands(double force, double time)
+        {
+            if (force > 0.0 && !(StrandForce >= force))
+            {
+                StrandForceTime = time;
+            }
+            StrandForce = Larger(StrandForce, force);
+        }
+
         /// <summary>Takes the displacements of soft walls.</summary>
         /// <param name="largest">m.</param>
         /// <param name="share">Largest over the wall's limit.</param>
@@ -267,6 +284,8 @@ namespace Guidewire.Core
             ElementForce = snapshot.Serialize(ElementForce);
             ElementForceTime = snapshot.Serialize(ElementForceTime);
             WallPressure = snapshot.Serialize(WallPressure);
+            StrandForce = snapshot.Serialize(StrandForce);
+            StrandForceTime = snapshot.Serialize(StrandForceTime);
             FrictionPower = snapshot.Serialize(FrictionPower);
             FrictionWork = snapshot.Serialize(FrictionWork);
             MetalStrain = snapshot.Serialize(MetalStrain);

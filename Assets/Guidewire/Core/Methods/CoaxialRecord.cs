@@ -41,8 +41,9 @@ namespace Guidewire.Core
         /// <param name="friction">Between the catheter and the instrument inside.</param>
         /// <param name="instrument">0 the outermost one, 1 that in it.</param>
         /// <param name="hasSoftWalls">Whether any wall gives way.</param>
+        /// <param name="touchesItself">Whether instruments touch themselves.</param>
         internal CoaxialRecord(int elements, double metres, double lumenRadius, LumenFriction friction,
-            int instrument = 0, bool hasSoftWalls = false)
+            int instrument = 0, bool hasSoftWalls = false, bool touchesItself = false)
         {
             _instrument = instrument;
             _friction = friction;
@@ -53,6 +54,7 @@ namespace Guidewire.Core
             AngularVelocities = new Vector3d[elements];
             ContactForces = new Vector3d[elements + 1];
             WallDisplacements = new Vector3d[hasSoftWalls ? elements : 0];
+            StrandForces = new Vector3d[touchesItself ? elements + 1 : 0];
             _lumen = lumenRadius;
         }
 
@@ -75,6 +77,10 @@ namespace Guidewire.Core
         /// <summary>Force of the walls on each node in the last step, N, where it is the outermost instrument.
         /// </summary>
         public Vector3d[] ContactForces { get; }
+
+        /// <summary>Force of its other strands on each node in the last step, N, where it is the outermost instrument;
+        /// as <see cref="ContactRecord.StrandForces"/>.</summary>
+        public Vector3d[] StrandForces { get; }
 
         /// <summary>Displacement of soft walls at each element, where it is the outermost instrument, m; as
         /// <see cref="ContactRecord.Displacements"/>.</summary>

@@ -6,10 +6,6 @@ namespace Guidewire.Core
     /// method, chosen when a run is built.</summary>
     internal abstract class TimeStepper
     {
-        /// <summary>Whether strands of an instrument may have come near one another in the last step. Only a method
-        /// that keeps them apart knows that they have not.</summary>
-        internal virtual bool MayTouchItself => true;
-
         /// <summary>Distance in units between the last sphere's prediction and where the constraints left it in the
         /// last step (Delta_p, thesis 4.1.1).</summary>
         public double PredictionError { get; protected internal set; }

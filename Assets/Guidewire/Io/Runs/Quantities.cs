@@ -123,6 +123,10 @@ namespace Guidewire.Io
                 "normal force of the walls on each element; that on a sphere is divided between its two elements",
                 QuantitySwitch.Contacts, m => Moment.Of(m.Contacts?.ElementForces))
                 .Json("contact.element", QuantityForm.Nonzero),
+            Vectors("strandForces", QuantityPlace.Node, "N",
+                "force of the wire's other strands on each sphere; as contactForces, where the wire touches itself",
+                QuantitySwitch.Contacts, m => Moment.Of(m.Contacts?.StrandForces))
+                .Json("contact.strand", QuantityForm.Nonzero).InAnswer(StatePart.Motion),
             OfSoftWalls("largestDisplacement", "largest displacement of soft walls", c => c.LargestDisplacement),
             OfSoftWalls("meanDisplacement", "mean displacement of soft walls over all contacts with them",
                 c => c.MeanDisplacement),
@@ -185,6 +189,9 @@ namespace Guidewire.Io
             Vectors("contactForces", QuantityPlace.Node, "N", "force of the walls on each of its nodes",
                 QuantitySwitch.Contacts, m => m.Contacts == null ? default : Moment.Of(m.Catheter.ContactForces))
                 .Json("catheters.contactForces").InAnswer(StatePart.Instruments),
+            Vectors("strandForces", QuantityPlace.Node, "N", "force of its other strands on each of its nodes",
+                QuantitySwitch.Contacts, m => m.Contacts == null ? default : Moment.Of(m.Catheter.StrandForces))
+                .Json("catheters.strandForces").InAnswer(StatePart.Instruments),
             Vectors("wallDisplacements", QuantityPlace.Element, "m", "displacement of soft walls at its elements",
                 QuantitySwitch.Contacts, m => m.Contacts == null ? default : Moment.Of(m.Catheter.WallDisplacements))
                 .Json("catheters.wallDisplacements").InAnswer(StatePart.Instruments),

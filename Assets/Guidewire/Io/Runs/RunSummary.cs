@@ -157,6 +157,8 @@ namespace Guidewire.Io
                 ["elementForce"] = Finite(extremes.ElementForce),
                 ["elementForceTime"] = Finite(extremes.ElementForceTime),
                 ["wallPressure"] = Finite(extremes.WallPressure),
+                ["strandForce"] = Finite(extremes.StrandForce),
+                ["strandForceTime"] = Finite(extremes.StrandForceTime),
                 ["wallDisplacement"] = Finite(extremes.WallDisplacement),
                 ["wallWork"] = Finite(extremes.WallWork),
                 ["frictionPower"] = Finite(extremes.FrictionPower),

@@ -55,9 +55,6 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public override ContactRecord? Contacts => Rod.Contacts;
 
-        /// <inheritdoc/>
-        internal override bool MayTouchItself => Rod.MayTouchItself;
-
         /// <summary>Takes the parts between which nodes come and go; again while a hub slips.</summary>
         public override void Advance(RodState state)
         {

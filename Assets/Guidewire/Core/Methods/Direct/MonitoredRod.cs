@@ -75,7 +75,7 @@ namespace Guidewire.Core
                 if (record != null)
                 {
                     record.WallForces = walls.Barrier.Resultants;
-                    record.SetElements(scene.Rod.Capacity, scene.Walls);
+                    record.SetElements(scene.Rod.Capacity, scene.Walls, true, walls.Self != null);
                     record.Remesh(scene.Rod.ElementCount + 1);
                 }
             }
@@ -114,21 +114,6 @@ namespace Guidewire.Core
             _extremes.TakeShape(Terms, _joints, _jointLengths, Shape, Time);
             FollowEnds();
             _energy.Remesh();
-        }
-
-        /// <summary>Whether strands may have come near one another since this was asked last.</summary>
-        public bool MayTouchItself
-        {
-            get
-            {
-                SelfContact? self = Terms.Walls()?.Self;
-                bool may = self == null || self.HadPairs;
-                if (self != null)
-                {
-                    self.HadPairs = false;
-                }
-                return may;
-            }
         }
 
         /// <summary>The motion.</summary>
@@ -313,6 +298,7 @@ namespace Guidewire.Core
                 return;
             }
             _elementForces.Record(Shape, Contacts!, _extremes, Time);
+            _extremes.TakeStrands(Terms.Walls()!.Self?.LargestForce(Shape) ?? double.NaN, Time);
             if (Terms.Walls()!.HoldsStart)
             {
                 _extremes.TakeHub(Terms.HubForce(Shape), _dynamics.Reactions.HubTorque, Time, Drag);
@@ -494,7 +480,7 @@ namespace Guidewire.Core
             snapshot.Serialize(ref _hubWork);
             snapshot.Serialize(ref _outside);
             Contacts?.Serialize(snapshot);
-            Contacts?.SerializeDisplacements(snapshot);
+            Contacts?.SerializeOptional(snapshot);
             if (!snapshot.IsWritten)
             {
                 (Failure, Divergence) = (null, null);

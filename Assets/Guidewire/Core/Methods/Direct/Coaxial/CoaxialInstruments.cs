@@ -19,10 +19,11 @@ namespace Guidewire.Core
             Chain = chain;
             _order = new HubOrder(setup, drives, chain.Hubs);
             MaterialScene wire = setup.Wire;
-            if (wire.Walls.Length > 0)
+            if (Rod.Contacts != null)
             {
                 _contacts = new ContactRecord(wire.Rod.ElementCount + 1);
-                _contacts.SetElements(wire.Rod.ElementCount, wire.Walls, drives.Length == 1);
+                _contacts.SetElements(wire.Rod.ElementCount, wire.Walls, drives.Length == 1,
+                    Rod.Contacts.StrandForces.Length > 0);
             }
         }
 
@@ -165,18 +166,19 @@ namespace Guidewire.Core
             if (_contacts != null)
             {
                 _contacts.CopyFrom(Rod.Contacts!, Chain.Rod.Joints.First);
-                TakeWalls(Drives.Length - 1, _contacts.Forces, _contacts.Displacements);
+                TakeWalls(Drives.Length - 1, _contacts.Forces, _contacts.StrandForces,
+                    _contacts.Displacements);
             }
         }
 
-        /// <summary>Takes the forces of walls on an instrument, and how far they give way. A node of the chain is one
+        /// <summary>Takes the forces of walls and strands on an instrument, and how far walls give way. A node of the chain is one
         /// of the outermost instrument there; that at a tip is the outer one's.</summary>
-        protected void TakeWalls(int instrument, Vector3d[] forces, Vector3d[] displacements)
+        protected void TakeWalls(int instrument, Vector3d[] forces, Vector3d[] strandForces, Vector3d[] displacements)
         {
             CoaxialJoints joints = Chain.Rod.Joints;
             int offset = forces.Length - 1 - joints.TipOf(instrument);
             int first = instrument == 0 ? 0 : joints.TipOf(instrument - 1);
-            Rod.Contacts!.CopyTo(forces, displacements, offset, instrument == 0 ? 0 : first + 1, first);
+            Rod.Contacts!.CopyTo(forces, strandForces, displacements, offset, instrument == 0 ? 0 : first + 1, first);
         }
 
         /// <summary>Writes or restores how far hubs have come, and what the run has counted of instruments.</summary>

@@ -152,7 +152,7 @@ namespace Guidewire.Core
             {
                 records[i] = new CoaxialRecord(Scenes[i].Rod.ElementCount, Wire.Metres,
                     Instruments[i].LumenRadius, new LumenFriction(catheters[i].LumenFriction, slip), i,
-                    ContactRecord.HasSoft(Wire.Walls))
+                    ContactRecord.HasSoft(Wire.Walls), _parameters.Contact.TouchesItself(Wire.Walls.Length))
                 {
                     Inside = i + 1 < records.Length ? records[i + 1] : null,
                 };

@@ -187,7 +187,8 @@ namespace Guidewire.Core
                 _each[i].UpdateFrom(Dynamics, Chain.Rod.Joints);
                 if (Contacts != null)
                 {
-                    TakeWalls(i, _records.All[i].ContactForces, _records.All[i].WallDisplacements);
+                    CoaxialRecord own = _records.All[i];
+                    TakeWalls(i, own.ContactForces, own.StrandForces, own.WallDisplacements);
                 }
             }
         }

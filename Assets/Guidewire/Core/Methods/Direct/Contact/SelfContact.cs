@@ -29,6 +29,7 @@ namespace Guidewire.Core
         private int _inside;                       // nodes in the sheath
         private bool _hasGeometric = true;
         private bool _isKnown;
+        private bool _hadPairs = true;
         private double _value;
 
         /// <summary>Contact of a rod with itself.</summary>
@@ -60,8 +61,13 @@ namespace Guidewire.Core
         /// <summary>Whether the wire touches itself in the shape evaluated last.</summary>
         public bool Touches => _contacts.Count > 0;
 
-        /// <summary>Whether any two elements may have come near each other since this was set to false.</summary>
-        public bool HadPairs { get; set; } = true;
+        /// <summary>Says whether any two elements may have come near each other since this was asked last.</summary>
+        public bool TakeNear()
+        {
+            bool had = _hadPairs;
+            _hadPairs = false;
+            return had;
+        }
 
         /// <inheritdoc/>
         public override void Remesh()
@@ -79,6 +85,18 @@ namespace Guidewire.Core
         {
             Update(shape, 0, _rod.ElementCount + 1);
             return _contacts;
+        }
+
+        /// <summary>The largest normal force between two elements in a shape, N.</summary>
+        public double LargestForce(RodShape shape)
+        {
+            Update(shape, 0, _rod.ElementCount + 1);
+            double largest = 0.0;
+            for (int k = 0; k < _contacts.Count; k++)
+            {
+                largest = Math.Max(largest, _contacts[k].Force);
+            }
+            return largest;
         }
 
         /// <summary>Where the wire overlaps itself, in one phrase, or null.</summary>
@@ -150,7 +168,7 @@ namespace Guidewire.Core
                 _to[i] = shape.X[i] + scale * direction[i].X;
             }
             _near.Follow(shape.X, _to);
-            HadPairs |= _near.Pairs.Count > 0;
+            _hadPairs |= _near.Pairs.Count > 0;
             double most = 1.0;
             if (_near.Pairs.Count == 0)
             {
@@ -217,7 +235,7 @@ namespace Guidewire.Core
             _contacts.Clear();
             _value = 0.0;
             _near.Follow(_nodes);
-            HadPairs |= _near.Pairs.Count > 0;
+            _hadPairs |= _near.Pairs.Count > 0;
             if (_near.Pairs.Count == 0)
             {
                 return;

@@ -158,6 +158,14 @@ namespace Guidewire.Core
 
         }
 
+        /// <summary>Adds minus the force of the wire's strands on one another.</summary>
+        public void AddStrandGradient(RodShape shape, RodVector[] gradient)
+        {
+            var measured = default(GradientMeasures);
+            Self?.AddGradient(shape, gradient, 0, shape.ElementCount + 1, ref measured);
+            SelfFriction?.AddGradient(shape, gradient, 0, shape.ElementCount + 1, ref measured);
+        }
+
         /// <summary>Adds minus the force of the walls on the wire.</summary>
         public void AddWallGradient(RodShape shape, RodVector[] gradient)
         {

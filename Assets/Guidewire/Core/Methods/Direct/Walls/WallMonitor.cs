@@ -3,8 +3,8 @@ using System.Globalization;
 
 namespace Guidewire.Core
 {
-    /// <summary>Counts passages through walls from the positions alone, independent of the solver, and records contact
-    /// forces.</summary>
+    /// <summary>Counts passages through walls, and of the wire through itself, from the positions alone, independent of
+    /// the solver, and records contact forces.</summary>
     internal sealed class WallMonitor : IWallClearance
     {
         private const double Wide = 1.5;       // of the radius: strain and bend may bring a moving wall nearer
@@ -17,6 +17,7 @@ namespace Guidewire.Core
         private readonly double[] _radius;     // of elements, units
         private readonly int[] _hint;
         private readonly PassageCount _passages;
+        private readonly StrandMonitor? _strands;   // null where strands do not touch
         private readonly WallImages _start;    // of the step
         private readonly WallImages _from;     // of the current part
         private readonly WallImages _to;
@@ -45,6 +46,7 @@ namespace Guidewire.Core
             _clearance = new double[n];
             _gradient = new RodVector[n + 2];
             _passages = new PassageCount(this, n);
+            _strands = walls.Self == null ? null : new StrandMonitor(rod.Length, rod.Radius, rod.ElementCount, true);
             Remesh();
         }
 
@@ -60,6 +62,7 @@ namespace Guidewire.Core
             Array.Fill(_hint, -1);
             _hasForces = false;
             _passages.Remesh(_rod.ElementCount);
+            _strands?.Remesh(_rod.ElementCount);
         }
 
         /// <summary>Work that moving walls have done on the wire so far, J: the mean of their forces where a part of a
@@ -89,11 +92,20 @@ namespace Guidewire.Core
             {
                 BeginWork(shape);
             }
+            _strands?.Begin(shape.X);
         }
 
         /// <summary>Takes the shape at the end of a part of the step.</summary>
         public void AddPart(RodShape shape)
         {
+            if (_walls.Self?.TakeNear() == true)
+            {
+                _strands!.Take(shape.X, 0.0);
+            }
+            else
+            {
+                _strands?.Begin(shape.X);
+            }
             SetUnits(shape, _to);
             for (int w = 0; w < Walls.Length; w++)
             {
@@ -184,6 +196,7 @@ namespace Guidewire.Core
                 _passages.EndStep(w, _start.OnWall[w], _from.OnWall[w]);
             }
             record.Passages = _passages.Total;
+            record.StrandPassages = _strands?.Passages ?? 0;
             double deepest = record.MaxPenetration;
             for (int w = 0; w < Walls.Length; w++)
             {
@@ -230,7 +243,15 @@ namespace Guidewire.Core
         }
 
         /// <summary>Writes or restores the passages so far.</summary>
-        public void Serialize(Snapshot snapshot) => _passages.Serialize(snapshot);
+        public void Serialize(Snapshot snapshot)
+        {
+            _passages.Serialize(snapshot);
+            long strands = snapshot.Serialize(_strands?.Passages ?? 0);
+            if (_strands != null)
+            {
+                _strands.Passages = strands;
+            }
+        }
 
         /// <summary>Writes or restores the work of moving walls.</summary>
         public void SerializeWork(Snapshot snapshot)
@@ -254,6 +275,16 @@ namespace Guidewire.Core
             }
             record.SetTotal(total);
             record.WallForces = _barrier.Resultants;
+            if (_strands == null)
+            {
+                return;
+            }
+            Array.Clear(_gradient, 0, _rod.ElementCount + 2);
+            _walls.AddStrandGradient(shape, _gradient);
+            for (int i = 0; i <= _rod.ElementCount; i++)
+            {
+                record.StrandForces[i] = -_gradient[i].X;
+            }
         }
 
         private void SetGradient(RodShape shape)

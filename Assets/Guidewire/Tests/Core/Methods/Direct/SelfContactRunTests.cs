@@ -1,3 +1,4 @@
+using System;
 using System.Collections.Generic;
 using NUnit.Framework;
 
@@ -16,6 +17,12 @@ namespace Guidewire.Core.Tests
             if (hasContact)
             {
                 Assert.That(simulation.Passages, Is.Zero);
+                Assert.That(simulation.IsReliable, Is.True, simulation.Reason);
+                Vector3d sum = Vector3d.Zero;
+                Array.ForEach(simulation.Contacts!.StrandForces, force => sum += force);
+                double largest = simulation.Report()!.Extremes!.StrandForce;
+                Assert.That(largest, Is.Positive);
+                Assert.That(sum.Length, Is.LessThan(1e-12 * largest), "strands act on one another alone");
                 return;
             }
             Assert.That(simulation.Passages, Is.Positive);
