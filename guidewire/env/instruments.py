@@ -15,20 +15,21 @@ class Instrument(NamedTuple):
 
     Attributes
     ----------
-    positions, orientations, contact_forces, place : as of State.
+    positions, orientations, contact_forces, strand_forces, place : as of State.
     hub : has insertion, turn, force, torque, tip_direction, as of Hub.
     """
 
     positions: np.ndarray
     orientations: np.ndarray
     contact_forces: np.ndarray
+    strand_forces: np.ndarray | None
     place: Any
     hub: Any
 
 
 def instruments_of(state: State) -> list[Instrument]:
     """Return the wire, and the catheters over it, outermost first."""
-    return [Instrument(one.positions, one.orientations, one.contact_forces, one.place, hub)
+    return [Instrument(one.positions, one.orientations, one.contact_forces, one.strand_forces, one.place, hub)
             for one, hub in ((state, state.hub), *((catheter, catheter) for catheter in state.catheters))]
 
 
