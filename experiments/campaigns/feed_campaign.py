@@ -27,7 +27,7 @@ from experiments.campaigns.push_campaign import CODES, OF_ENDS
 from experiments.campaigns.results import Record
 from experiments.campaigns.runs import close, fill, folder_of, parser_of
 from guidewire.logs.logs import read_log
-from guidewire.logs.strands import passages, writhe
+from guidewire.logs.strands import link, passages
 from guidewire.runs import building
 from guidewire.runs.runner import Request, Runner
 from tools.seeds import red
@@ -37,7 +37,7 @@ NODES = 160
 WITHDRAWN = 3  # of so many seeds one is drawn back
 SAME_LINK = 0.05  # turns: what friction may keep of a twist; a strand that passed another leaves 1 or more
 _TIME_STEP = 0.05  # s
-_FAR = 1e3  # lengths of the wire, by which it is extended for its link
+_STRAIGHT = 0.9  # cosine of the wire's end, before its bent tip, to its start: one that is folded back has no link
 
 
 @dataclass(frozen=True)
@@ -82,7 +82,7 @@ def draw(seed: int, folder: Path) -> tuple[str, dict[str, Any]]:
                           "restCurvature": [float(random.uniform(20.0, 200.0)), 0.0, 0.0]}],
         "gravity": [*(9.81 * random.uniform(-1.0, 1.0, 2)).tolist(), 0.0],
         "vessel": vessel, "timeStep": _TIME_STEP, "deltaThreshold": 0.0, "solverTolerance": 1e-5,
-        "logFormat": "npz", "logStrains": True,
+        "logFormat": "npz", "logOrientations": True,
     }
     turn = float(random.choice([0.0, 0.0, 2.0, -5.0]))
     if seed % WITHDRAWN == 0:
@@ -117,19 +117,6 @@ def _arch(radius: float, bend: float, straight: float) -> dict[str, Any]:
             "knots": [[float(x) for x in knot] for knot in knots], "radius": [radius] * len(knots)}
 
 
-def link(positions: np.ndarray, twist: np.ndarray, length: float) -> float:
-    """Turns of the last element against the first one: the writhe of a wire, extended at both ends, and its twist. A
-    tip that is bent back has none.
-
-    Parameters
-    ----------
-    positions : (n+1, 3), units.
-    twist : (n+1,), before each node, rad/m, which stands for an element's length.
-    length : of an element, m.
-    """
-    return writhe(positions, _FAR) + float(twist[1:-1].sum()) * length / (2.0 * np.pi)
-
-
 def make(runner: Runner, seed: int, folder: Path) -> Feed:
     """Draw, run and check one feed; its files are left in the folder."""
     kind, scene = draw(seed, folder)
@@ -148,11 +135,11 @@ def make(runner: Runner, seed: int, folder: Path) -> Feed:
     claims += [f"strand through strand in entry {one.entry}, elements {one.elements}" for one in passed
                if not one.may_be_round_the_tip]
     change = None
-    if "driveFile" in scene and answer.outcome == "finished":
+    straight = round(NODES * scene["wireSections"][0]["from"] / scene["guidewireLength"])
+    end = positions[-1][straight] - positions[-1][straight - 1]
+    if "driveFile" in scene and answer.outcome == "finished" and end[2] > _STRAIGHT * np.linalg.norm(end):
         with np.load(out / "positions.npz") as arrays:
-            straight = round(NODES * scene["wireSections"][0]["from"] / scene["guidewireLength"])
-            first, last = (link(positions[k][:straight + 1], arrays["curvature"][k][:straight + 1, 2],
-                                1e-3 * scene["guidewireLength"] / NODES) for k in (0, -1))
+            first, last = (link(positions[k][:straight + 1], arrays["orientations"][k][:straight]) for k in (0, -1))
         change = last - first
         if abs(change) > SAME_LINK:
             claims.append(f"drawn back, the wire has {change:.3g} turns")

@@ -96,6 +96,20 @@ def soften(scene: dict[str, Any], seed: int) -> None:
             wall["relaxationTime"] = _between(delay, 0.01, 1.0)
 
 
+def give_way(scene: dict[str, Any], seed: int) -> None:
+    """Makes the core of a push's wire nitinol or steel of any strength: it leaves its line at 0.1 to 1.5 % of strain,
+    with the hardening of the default or up to a tenth of E."""
+    random = np.random.default_rng([80, seed])
+    upper = scene["youngsModulus"] * _between(random, 1e-3, 1.5e-2)
+    if seed % 2:
+        scene["yieldStress"] = upper
+    else:
+        scene["plateau"] = {"upper": upper, "lower": upper * random.uniform(0.2, 0.95),
+                            "strain": _between(random, 5e-3, 8e-2)}
+    if random.uniform() < 0.3:
+        scene["hardening"] = scene["youngsModulus"] * _between(random, 1e-4, 0.1)
+
+
 def radii_of(scene: dict[str, Any]) -> np.ndarray:
     """Radius in units of each element, shape (n,): the largest along it. Sections with elements of their own are at the
     tip."""

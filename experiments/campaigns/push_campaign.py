@@ -38,7 +38,7 @@ TOUCH = 1e-3  # N of a wall, from which on it is touched
 OF_ENDS = ("points of the wire passed a wall", " goes through itself", "the wire penetrated a wall", "the wire is ",
            material_claims.KINKED, "the drive fell short: ", "over which the wire spreads a load on the wall",
            "of its softLimit: there it was almost rigid", "leave their elastic line",
-           "which is not simulated: at the tip their axes may differ")
+           "which is not simulated: at the tip their axes may differ", "beyond the range of its material's law")
 # A wire that jams may be lost, or its step have no solution, for which it says so.
 CODES = {"finished": 0, "diverged": 4, "failed": 5}
 
@@ -80,14 +80,17 @@ def write(seed: int, method: str, folder: Path) -> tuple[str, Path]:
     return drawn[0], path
 
 
-def make(runner: Runner, seed: int, method: str, folder: Path, is_soft: bool = False) -> Push | None:
-    """Draw, run and check one push, between soft walls if asked for; its files are left in the folder. None where there
-    is nothing to check."""
+def make(runner: Runner, seed: int, method: str, folder: Path, is_soft: bool = False, gives_way: bool = False
+         ) -> Push | None:
+    """Draw, run and check one push, between soft walls or of a core that gives way if asked for; its files are left in
+    the folder. None where there is nothing to check."""
     kind, path = write(seed, method, folder)
     scene = json.loads(path.read_text())
     if is_soft:
         material_pushes.soften(scene, seed)
-        path.write_text(json.dumps(scene, indent=1))
+    if gives_way:
+        material_pushes.give_way(scene, seed)
+    path.write_text(json.dumps(scene, indent=1))
     if method != "pbd" and scene["vessel"]["shape"] == "mesh":
         mesh = read_obj(Path(scene["vessel"]["file"]))
         if crosses_itself(mesh.vertices, mesh.triangles):
@@ -149,12 +152,12 @@ def starts_in_a_wall(scene: dict[str, Any], walls: Walls) -> bool:
     return min(least) < radius
 
 
-def campaign(command: Sequence[str], seeds: Iterable[int], folder: Path, method: str = "pbd", is_soft: bool = False
-             ) -> Iterator[Push]:
+def campaign(command: Sequence[str], seeds: Iterable[int], folder: Path, method: str = "pbd", is_soft: bool = False,
+             gives_way: bool = False) -> Iterator[Push]:
     """The pushes of these seeds, one after another in one process; files of those that break nothing are removed."""
     with closing(Runner(command)) as runner:
         for seed in seeds:
-            push = make(runner, seed, method, folder, is_soft)
+            push = make(runner, seed, method, folder, is_soft, gives_way)
             shutil.rmtree(folder / f"run-{seed}", ignore_errors=True)
             if not push or not push.claims:
                 for path in folder.glob(f"push-{seed}.*"):
@@ -168,15 +171,18 @@ def main(arguments: Sequence[str]) -> int:
     parser.add_argument("--method", choices=("pbd", *material_pushes.METHODS), default="pbd",
                         help="of the runs (default pbd)")
     parser.add_argument("--soft", action="store_true", help="walls that give way, not with pbd and xpbd")
+    parser.add_argument("--core", action="store_true", help="a core that gives way or yields, not with pbd and xpbd")
     parser.add_argument("--keep", type=Path, help="folder for the scenes of runs that break a claim")
     given = parser.parse_args(arguments)
-    if given.soft and given.method in ("pbd", "xpbd"):
-        parser.error(f"--soft with {given.method}, which has no soft walls")
-    name = f"push {given.method}{' soft' if given.soft else ''}"
+    if (given.soft or given.core) and given.method in ("pbd", "xpbd"):
+        parser.error(f"--soft or --core with {given.method}, which has no soft walls and linear wires")
+    more = (" soft" if given.soft else "") + (" core" if given.core else "")
+    name = f"push {given.method}{more}"
     command, record = building.build(building.RUNNER, print), Record(given.record)
     with folder_of(given) as folder:
-        lines = fill(record, given, lambda seeds: campaign(command, seeds, folder, given.method, given.soft), red(name))
-    return close(name, f"push_campaign --method {given.method}{' --soft' if given.soft else ''}", lines, given,
+        lines = fill(record, given, lambda seeds: campaign(command, seeds, folder, given.method, given.soft, given.core),
+                     red(name))
+    return close(name, f"push_campaign --method {given.method}{more.replace(' ', ' --')}", lines, given,
                  beyond=sum(one["beyond"] > MOST_BEYOND for one in lines),
                  touching=sum(one.get("is_touching", False) for one in lines),
                  overtakings=sum(one.get("overtakings", 0) for one in lines))

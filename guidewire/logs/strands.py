@@ -52,14 +52,17 @@ def writhe(points: np.ndarray, extension: float = 0.0) -> float:
         points = np.vstack([points[0] + reach * first / np.linalg.norm(first), points,
                             points[-1] + reach * last / np.linalg.norm(last)])
     i, j = np.triu_indices(len(points) - 1, 2)
-    a, b, c, d = points[i], points[i + 1], points[j], points[j + 1]
-    normals = [np.cross(c - a, d - a), np.cross(d - a, d - b), np.cross(d - b, c - b), np.cross(c - b, c - a)]
-    lengths = [np.linalg.norm(normal, axis=1) for normal in normals]
-    units = [normal / np.where(length > 0.0, length, 1.0)[:, None]
-             for normal, length in zip(normals, lengths, strict=True)]
-    angle = sum(np.arcsin(np.clip(np.einsum("kx,kx->k", units[k], units[(k + 1) % 4]), -1.0, 1.0)) for k in range(4))
-    sign = np.sign(np.einsum("kx,kx->k", np.cross(d - c, b - a), c - a))
-    return float((angle * sign).sum() / (2.0 * np.pi))
+    corners = [points[j] - points[i], points[j + 1] - points[i], points[j + 1] - points[i + 1], points[j] - points[i + 1]]
+    lengths = [np.linalg.norm(corner, axis=1) for corner in corners]
+    a, b, c, d = (corner / np.where(length > 0.0, length, 1.0)[:, None]
+                  for corner, length in zip(corners, lengths, strict=True))
+    return -float((_half_angle(a, b, c) + _half_angle(a, c, d)).sum()) / np.pi
+
+
+def _half_angle(a: np.ndarray, b: np.ndarray, c: np.ndarray) -> np.ndarray:
+    """Half the signed solid angle of triangles of unit vectors (Van Oosterom and Strackee 1983)."""
+    dots = [np.einsum("kx,kx->k", u, v) for u, v in ((a, b), (b, c), (c, a))]
+    return np.arctan2(np.einsum("kx,kx->k", a, np.cross(b, c)), 1.0 + dots[0] + dots[1] + dots[2])
 
 
 def crossings(before: np.ndarray, after: np.ndarray) -> list[tuple[int, int, int]]:
@@ -118,3 +121,27 @@ def passages(positions: np.ndarray) -> list[Passage]:
             found.append(Passage(k, crossed[0][:2], now - last, bool(moved > left)))
         last = now
     return found
+
+
+def link(points: np.ndarray, orientations: np.ndarray, extension: float = 1e4) -> float:
+    """Turns of the end of a rod against its start, as its elements lie: the writhe of the polyline, extended at both
+    ends, and its twist. No motion changes it that leaves the ends where they are and lets no strand pass another.
+
+    Parameters
+    ----------
+    points : (n+1, 3).
+    orientations : (n, 4), quaternions x, y, z, w of the elements.
+    extension : as of `writhe`.
+    """
+    along = np.diff(points, axis=0)
+    along /= np.linalg.norm(along, axis=1)[:, None]
+    x, y, z, w = orientations.T
+    across = np.column_stack([1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y + w * z), 2.0 * (x * z - w * y)])
+    across -= np.einsum("ij,ij->i", across, along)[:, None] * along
+    a, b, first, second = along[:-1], along[1:], across[:-1], across[1:]
+    # The first element's direction across, moved on to the next one the shortest way.
+    axis = np.cross(a, b)
+    moved = (np.einsum("ij,ij->i", a, b)[:, None] * first + np.cross(axis, first)
+             + axis * (np.einsum("ij,ij->i", axis, first) / (1.0 + np.einsum("ij,ij->i", a, b)))[:, None])
+    twist = np.arctan2(np.einsum("ij,ij->i", np.cross(moved, second), b), np.einsum("ij,ij->i", moved, second))
+    return float(twist.sum()) / (2.0 * np.pi) + writhe(points, extension)

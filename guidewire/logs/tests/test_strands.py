@@ -1,9 +1,15 @@
 """The judge of passages against curves whose writhe and passages are known."""
 
+import json
+import math
+import subprocess
+
 import numpy as np
 import pytest
 
-from guidewire.logs.strands import crossings, passages, writhe
+from guidewire.logs.array_logs import ArrayLog
+from guidewire.logs.strands import crossings, link, passages, writhe
+from guidewire.prepare import ROOT
 
 
 def _trefoil(n: int) -> np.ndarray:
@@ -60,3 +66,24 @@ def test_strand_round_the_end_is_no_passage() -> None:
             points[-2] = [0.3, 1.0, z0 + s * (z1 - z0)]
             frames.append(points)
     assert passages(np.array(frames)) == []
+
+
+@pytest.mark.parametrize("steps", [60, pytest.param(170, marks=pytest.mark.long("60 steps make a loop that touches"))])
+def test_no_motion_between_held_ends_changes_the_link(runner_command, tmp_path, steps):
+    """Twist and writhe of a wire that is turned at its hub sum up to the hub's turns: as helix, loop and plectoneme."""
+    scene = json.loads((ROOT / "params" / "plectoneme.json").read_text())
+    scene |= {"numberRodElements": 120, "twistPerStep": 0.1, "maxSimulationSteps": steps, "logFormat": "npz",
+              "logOrientations": True}
+    (tmp_path / "scene.json").write_text(json.dumps(scene))
+    subprocess.run([*runner_command, "-parameters", str(tmp_path / "scene.json"), "-out", str(tmp_path / "run")],
+                   check=True, capture_output=True)
+    log = ArrayLog(tmp_path / "run" / "positions.npz")
+    worst = 0.0
+    for positions, orientations, turn in zip(*(np.asarray(log[name]) for name in (
+            "positions", "orientations", "hubTurn")), strict=True):
+        # The clamps are elements of their own.
+        ends = [positions[0] - [0, 0, 1], positions[-1] + [0, 0, 1]]
+        frames = [[0, 0, math.sin(0.5 * turn), math.cos(0.5 * turn)], [0, 0, 0, 1]]
+        turns = link(np.vstack([ends[0], positions, ends[1]]), np.vstack([frames[0], orientations, frames[1]]))
+        worst = max(worst, abs(turns + turn / (2.0 * math.pi)))
+    assert worst < 1e-9

@@ -116,26 +116,18 @@ namespace Guidewire.Core
             {
                 for (int j = i + 2; j < _count; j++)
                 {
-                    Vector3d[] normal =
-                    {
-                        Vector3d.Cross(x[j] - x[i], x[j + 1] - x[i]),
-                        Vector3d.Cross(x[j + 1] - x[i], x[j + 1] - x[i + 1]),
-                        Vector3d.Cross(x[j + 1] - x[i + 1], x[j] - x[i + 1]),
-                        Vector3d.Cross(x[j] - x[i + 1], x[j] - x[i]),
-                    };
-                    double angle = 0.0;
-                    for (int k = 0; k < 4; k++)
-                    {
-                        double size = Math.Sqrt(normal[k].LengthSquared * normal[(k + 1) % 4].LengthSquared);
-                        double cosine = size > 0.0 ? Vector3d.Dot(normal[k], normal[(k + 1) % 4]) / size : 0.0;
-                        angle += Math.Asin(Math.Max(-1.0, Math.Min(1.0, cosine)));
-                    }
-                    double side = Vector3d.Dot(Vector3d.Cross(x[j + 1] - x[j], x[i + 1] - x[i]), x[j] - x[i]);
-                    sum += Math.Sign(side) * angle;
+                    Vector3d a = Vector3d.Normalize(x[j] - x[i]);
+                    Vector3d c = Vector3d.Normalize(x[j + 1] - x[i + 1]);
+                    sum -= HalfAngle(a, Vector3d.Normalize(x[j + 1] - x[i]), c)
+                        + HalfAngle(a, c, Vector3d.Normalize(x[j] - x[i + 1]));
                 }
             }
-            return sum / (2.0 * Math.PI);
+            return sum / Math.PI;
         }
+
+        // Half the signed solid angle of three unit vectors (Van Oosterom and Strackee 1983).
+        private static double HalfAngle(in Vector3d a, in Vector3d b, in Vector3d c) => Math.Atan2(
+            Vector3d.Dot(a, Vector3d.Cross(b, c)), 1.0 + Vector3d.Dot(a, b) + Vector3d.Dot(b, c) + Vector3d.Dot(c, a));
 
         // Whether elements j and k cross an odd number of times.
         private static bool Crosses(Vector3d[] from, Vector3d[] to, int j, int k)

@@ -30,6 +30,38 @@ namespace Guidewire.Core.Tests
             Assert.That(simulation.Warnings, Has.Some.Contains("passed through itself"));
         }
 
+        /// <summary>A rope of 1.5 m, a coil in the air, falls on a plane as a pile and comes to rest.</summary>
+        [TestCase(30, 0.0)]
+        [TestCase(100, 0.0, Category = "Long")]
+        [TestCase(100, 0.3, Category = "Long")]
+        public void RopeThatIsDropped_ComesToRestAsAPile(int n, double friction)
+        {
+            SimulationParameters parameters = Rods.Clamped(n, Solver.Direct, 0.01, 3000);
+            parameters.Scene.GuidewireLength = 15.0 * n;
+            parameters.Scene.ProximalEnd = ProximalEnd.Free;
+            parameters.Scene.StartShape = StartShape.Helix;
+            parameters.Scene.StartRadius = 40.0;
+            parameters.Scene.StartTurns = 15.0 * n / Math.Sqrt(Math.Pow(80.0 * Math.PI, 2.0) + 144.0);
+            parameters.Scene.Gravity = -9.81 * Vector3d.UnitZ;
+            parameters.Scene.Walls = new ContactShape[]
+            {
+                new PlaneShape(new Vector3d(0.0, 0.0, -60.0), Vector3d.UnitZ) { FrictionCoefficient = 0.3 },
+            };
+            parameters.Material.WireRadius = 4e-3;
+            parameters.Material.YoungsModulus = 1e6;
+            parameters.Material.ShearModulus = 4e5;
+            parameters.Material.Density = 1000.0;
+            parameters.Material.MassDamping = 2.0;
+            parameters.Contact.SelfFriction = friction;
+            parameters.Method.DeltaThreshold = 1e-3;
+            Simulation run = Wires.Run(parameters);
+            TestContext.WriteLine("{0} at t = {1:G3} s, {2} factorisations", run.Outcome, run.Time,
+                run.Report()!.Factorisations);
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Converged), run.Reason);
+            Assert.That(run.Passages, Is.Zero);
+            Assert.That(run.IsReliable, Is.True, run.Reason);
+        }
+
         [Test]
         public void StartThatOverlaps_IsSaid()
         {
