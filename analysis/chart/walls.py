@@ -15,6 +15,7 @@ from analysis.validation.dynamics import rms_error
 from analysis.validation.states import last_state, tip_at
 from analysis.validation.wire import Wire
 from guidewire.figures.wording import percent
+from guidewire.logs.hub import read_hub
 from guidewire.logs.runs import Run
 from guidewire.studies.table import Case
 
@@ -229,6 +230,44 @@ def _points(run: Run) -> np.ndarray:
     return np.stack([np.interp(_ARC, arc, x) for x in nodes.T], axis=1)
 
 
+_WOUND_SCALE = 0.01  # m, sqrt(B/T)
+_WOUND_LENGTH = 24.0  # of these
+_WOUND_RADIUS = 0.2
+# Couples at angles between the ends, rad, in sqrt(BT): of a boundary-value problem with forces between pairs of nodes.
+_WOUND_COUPLES = ((7.5, 0.9918), (8.5, 0.8637), (9.5, 0.7405), (10.5, 0.7271))
+_WOUND_BENDING = 0.7854e-3  # N m^2
+
+
+def _wound(n: int, turn: float) -> dict[str, Any]:
+    """The keys of direct for a wire under tension whose ends are turned against each other by so much a step."""
+    radius = _WOUND_RADIUS * _WOUND_SCALE
+    modulus = _WOUND_BENDING / (0.25 * math.pi * radius**4)
+    tension = _WOUND_BENDING / _WOUND_SCALE**2
+    return {
+        "solver": "direct", "integrator": "implicitEuler", "guidewireLength": _WOUND_LENGTH * _WOUND_SCALE / scenes.UNIT,
+        "numberRodElements": n, "guidewireOffset": 0.0, "wireRadius": radius, "youngsModulus": modulus,
+        "shearModulus": 24.0 * modulus, "density": 0.02 / (math.pi * radius**2), "axialStiffness": 400.0 * tension,
+        "proximalEnd": "clamped", "distalEnd": "sliding", "axialForce": tension, "gravity": [0.0, 1.0, 0.0],
+        "drive": "displace", "displacement": 0.0, "twistPerStep": turn, "selfContact": True, "timeStep": 0.05,
+        "deltaThreshold": 0.0, "maxSimulationSteps": round(_WOUND_COUPLES[-1][0] / turn), "logHub": True,
+    }
+
+
+def _plectoneme() -> scenes.Asking[Asked]:
+    yield []
+
+    def error(run: Run) -> float:
+        hub = read_hub(run.folder)
+        couples = np.interp([angle for angle, _ in _WOUND_COUPLES], hub.turn, np.abs(hub.torque))
+        unit = _WOUND_BENDING / _WOUND_SCALE  # sqrt(BT)
+        return max(abs(couple / unit / exact - 1.0) for couple, (_, exact) in zip(couples, _WOUND_COUPLES))
+
+    made = [Setting("direct", f"n = {n}, {turn:g} rad a step", f"n{n} {turn:g}", case(
+        f"direct-{n}-{turn}", "direct", _wound(n, turn))) for n, turn in (
+            (60, 0.25), (60, 0.1), (90, 0.1), (120, 0.25), (120, 0.1), (120, 0.05), (180, 0.1), (240, 0.1), (240, 0.05))]
+    return Asked(made, lambda _: (error, "a boundary-value problem with contact between pairs of nodes"))
+
+
 PROBLEMS = (
     Problem("on-plane", "cantilever that rests on a plane", "worst node's distance, of the drop", _plane, ABSENT),
     Problem("collision", "fall onto a bar, 0.3 s", "RMS of the tip, relative", _fall, ABSENT),
@@ -236,4 +275,6 @@ PROBLEMS = (
             _soft_insertion, {method: "has rigid walls alone" for method in ("pbd", "xpbd")} | ABSENT),
     Problem("insertion", "pushed into an arch, 1.5 s", "worst distance along the wire, of the clearance", _insertion,
             ABSENT),
+    Problem("plectoneme", "twisted until it winds up, 10.5 rad", "worst couple, relative", _plectoneme,
+            {method: "has no contact of a wire with itself" for method in ("pbd", "xpbd", "explicit")}),
 )

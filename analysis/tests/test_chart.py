@@ -158,7 +158,7 @@ def test_every_problem_has_all_methods_or_says_why_not() -> None:
     assert {setting.method for setting in twist.settings} == set(METHODS)
     for setting in twist.settings:  # gains stand between the same ends
         assert setting.case.overrides["distalEnd"] == "clamped" and "twistPerStep" not in setting.case.overrides
-    assert len({problem.name for problem in PROBLEMS}) == len(PROBLEMS) == 13
+    assert len({problem.name for problem in PROBLEMS}) == len(PROBLEMS) == 14
     asked = walls._insertion()
     next(asked)
     with pytest.raises(StopIteration) as ended:

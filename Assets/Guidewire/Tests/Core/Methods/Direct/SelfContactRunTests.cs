@@ -31,7 +31,7 @@ namespace Guidewire.Core.Tests
         }
 
         /// <summary>A rope of 1.5 m, a coil in the air, falls on a plane as a pile and comes to rest.</summary>
-        [TestCase(30, 0.0)]
+        [TestCase(30, 0.0, Category = "Long")]
         [TestCase(100, 0.0, Category = "Long")]
         [TestCase(100, 0.3, Category = "Long")]
         public void RopeThatIsDropped_ComesToRestAsAPile(int n, double friction)
@@ -54,6 +54,7 @@ namespace Guidewire.Core.Tests
             parameters.Material.MassDamping = 2.0;
             parameters.Contact.SelfFriction = friction;
             parameters.Method.DeltaThreshold = 1e-3;
+            parameters.Method.Integrator = Integrator.ImplicitEuler;
             Simulation run = Wires.Run(parameters);
             TestContext.WriteLine("{0} at t = {1:G3} s, {2} factorisations", run.Outcome, run.Time,
                 run.Report()!.Factorisations);
