@@ -47,6 +47,11 @@ namespace Guidewire.Benchmarks
                 PrintScenes(arguments);
                 return 0;
             }
+            if (arguments.Contains("--self"))
+            {
+                SelfContactCost.Print();
+                return 0;
+            }
             if (arguments.Contains("--pictures"))
             {
                 foreach (string file in arguments.Where(word => word.EndsWith(".json", StringComparison.Ordinal)))
