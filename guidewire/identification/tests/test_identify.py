@@ -407,3 +407,32 @@ def test_the_command_writes_values_picture_and_scene(run_of, tmp_path, capsys):
     assert json.loads((tmp_path / "out" / "scene.json").read_text(encoding="utf-8"))["bendingStiffness"] == \
         made["values"][0]["value"]
     assert (tmp_path / "out" / "identified.png").read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.long("two values of one loop; plateaus are parsed and placed as any key")
+@pytest.mark.parametrize("law, start", [
+    ({"yieldStress": 9e8}, {"yieldStress": 1.5e9}),
+    ({"plateau.upper": 4.2e8, "plateau.lower": 2.1e8}, {"plateau.upper": 6e8, "plateau.lower": 1.5e8}),
+])
+def test_yield_and_plateau_are_found_from_a_loop_of_force(run_of, tmp_path, law, start):
+    """A wire is pushed through a bend of 7 mm and drawn back: the hub's force over time, with noise of 1 %, has the heat
+    of the way there and back."""
+    angles = np.radians(np.linspace(0.0, 70.0, 15))
+    bend = [[7.0 * (1.0 - np.cos(angle)), 0.0, 7.0 * np.sin(angle)] for angle in angles]
+    on = [bend[-1][0] + 20.0 * np.sin(angles[-1]), 0.0, bend[-1][2] + 20.0 * np.cos(angles[-1])]
+    file = tmp_path / "drive.csv"
+    file.write_text("time,insertion,rotation\n0,0,0\n3,0.018,0\n6,0,0\n")
+    keys = {"plateau": {"upper": 5e8, "lower": 2e8, "strain": 0.05}} if "plateau.upper" in law else {}
+    scene = {"solver": "direct", "integrator": "implicitEuler", "guidewireLength": 30.0, "guidewireOffset": -31.0,
+             "numberRodElements": 40, "wireRadius": 1.78e-4, "youngsModulus": 60e9, "shearModulus": 23e9,
+             "proximalEnd": "clamped", "drive": "displace", "driveFile": str(file), "timeStep": 0.05,
+             "deltaThreshold": 0.0, "maxSimulationSteps": 120, "logHub": True, **keys,
+             "vessel": {"shape": "tube", "knots": [[0, 0, -60], *bend, on], "radius": [0.4] * 17, "openStart": True,
+                        "openEnd": True}}
+    hub = read_hub(run_of(placed({**scene, **law})))
+    random = np.random.default_rng(7)
+    force = hub.force + random.normal(0.0, 0.01 * np.abs(hub.force).max(), len(hub.force))
+    measured = write(tmp_path / "loop.csv", "time,force", np.stack([hub.time, force], axis=1)[1:].tolist())
+    found = identify(placed({**scene, **start}), measured, list(law))
+    for key, true in law.items():
+        assert is_within(found[key], true) and found[key].error < 0.1 * true, (key, found[key], true)

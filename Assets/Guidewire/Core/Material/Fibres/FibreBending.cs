@@ -88,6 +88,30 @@ namespace Guidewire.Core
         /// <summary>Energy that the material has turned into heat, J.</summary>
         public double Loss { get; private set; }
 
+        /// <summary>What bends that cores keep store where the wire is held straight before the rod, in a sheath or in
+        /// another instrument, J.</summary>
+        public double LeadEnergy
+        {
+            get
+            {
+                Update();
+                var sum = default(FibreCurve);
+                foreach (FibreMemory? memory in Memory)
+                {
+                    for (int slot = 0; memory != null && slot < memory.Remembers.Length; slot++)
+                    {
+                        if (memory.Remembers[slot] && memory.Outside[slot] + memory.Inside[slot] == 0.0)
+                        {
+                            Vector3d rest = memory.Profile.Pieces[memory.PieceOf(slot)].RestCurvature;
+                            memory.Sections[slot]!.Add(-rest.X, -rest.Y, memory.Straight, memory.StartOf(slot),
+                                memory.LengthOf(slot), ref sum);
+                        }
+                    }
+                }
+                return sum.Energy;
+            }
+        }
+
         /// <summary>How many fibre states there are.</summary>
         public int StateCount
         {

@@ -105,6 +105,17 @@ namespace Guidewire.Core
         /// <summary>Gives the node of a slot.</summary>
         public int NodeOf(int slot) => _nodeOf[slot];
 
+        /// <summary>Gives the length that a slot stands for, m: half of the elements beside its node, where its material
+        /// is.</summary>
+        public double LengthOf(int slot)
+        {
+            int k = NodeOf(slot);
+            double from = 0.5 * (Stations[Math.Max(k - 1, 0)] + Stations[k]);
+            double to = 0.5 * (Stations[k] + Stations[Math.Min(k + 1, Stations.Length - 1)]);
+            double[] borders = Profile.Borders;
+            return Math.Max(0.0, Math.Min(to, borders[PieceOf(slot) + 1]) - Math.Max(from, borders[PieceOf(slot)]));
+        }
+
         /// <summary>Gives the piece of material of a slot.</summary>
         public int PieceOf(int slot) => _firstPiece[_nodeOf[slot]] + slot - _firstSlot[_nodeOf[slot]];
 

@@ -391,7 +391,8 @@ namespace Guidewire.Core
             _stress ??= new StressRecord(_jointLengths);
             Terms.SetTime(Schedule, Time);
             _stress.Record(Terms, Shape, Terms.Mass.KineticEnergy(Velocities, Spins));
-            _stress.TakeEnergies(_stress.KineticEnergy, _stress.ElasticEnergy, _stress.PotentialEnergy + _outside);
+            _stress.TakeEnergies(_stress.KineticEnergy, _stress.ElasticEnergy + (Terms.Fibres?.LeadEnergy ?? 0.0),
+                _stress.PotentialEnergy + _outside);
             return _stress;
         }
 

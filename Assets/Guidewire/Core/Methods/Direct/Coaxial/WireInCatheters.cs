@@ -41,7 +41,8 @@ namespace Guidewire.Core
             RodTerms terms = Dynamics.Terms;
             StressRecord record = _stress.Record(Dynamics, Chain.Rod.Joints, force);
             record.TakeEnergies(Dynamics.KineticEnergy,
-                terms.ElasticEnergy(Dynamics.Shape) - Chain.Rod.Axial.PreloadEnergy,
+                terms.ElasticEnergy(Dynamics.Shape) - Chain.Rod.Axial.PreloadEnergy
+                + (terms.Fibres?.LeadEnergy ?? 0.0),
                 terms.LoadPotential(Dynamics.Shape));
             record.TakeFibres(terms, Dynamics.Shape, Chain.Rod.Joints.InnerCount);
             return record;

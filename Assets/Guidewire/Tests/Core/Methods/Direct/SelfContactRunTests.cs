@@ -30,6 +30,26 @@ namespace Guidewire.Core.Tests
             Assert.That(simulation.Warnings, Has.Some.Contains("passed through itself"));
         }
 
+        /// <summary>The feed that without contact passes itself, with every scheme and between walls that give way.</summary>
+        [Category("Long")]
+        [TestCase(Integrator.Trbdf2, 0.0)]
+        [TestCase(Integrator.Bdf2, 0.0)]
+        [TestCase(Integrator.Esdirk3, 0.0)]
+        [TestCase(Integrator.Esdirk4, 0.0)]
+        [TestCase(Integrator.ImplicitEuler, 1e5)]
+        [TestCase(Integrator.Esdirk3, 1e6)]
+        public void FedIntoASac_StrandsStayApart_WithEveryScheme(Integrator integrator, double wallStiffness)
+        {
+            SimulationParameters parameters = Sac(true, 0.0, 120);
+            parameters.Method.Integrator = integrator;
+            parameters.Scene.Walls[0].Softness = wallStiffness > 0.0 ? new WallSoftness("vessel", wallStiffness) : null;
+            Simulation run = Wires.Finish(parameters);
+            TestContext.WriteLine("largest force of a strand {0:G3} N, {1} factorisations",
+                run.Report()!.Extremes!.StrandForce, run.Report()!.Factorisations);
+            Assert.That(run.Report()!.Extremes!.StrandForce, Is.Positive);
+            Assert.That(run.Passages, Is.Zero);
+        }
+
         /// <summary>A rope of 1.5 m, a coil in the air, falls on a plane as a pile and comes to rest.</summary>
         [TestCase(30, 0.0, Category = "Long")]
         [TestCase(100, 0.0, Category = "Long")]
