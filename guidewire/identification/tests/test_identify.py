@@ -411,7 +411,7 @@ def test_the_command_writes_values_picture_and_scene(run_of, tmp_path, capsys):
 
 @pytest.mark.long("two values of one loop; plateaus are parsed and placed as any key")
 @pytest.mark.parametrize("law, start", [
-    ({"yieldStress": 9e8}, {"yieldStress": 1.5e9}),
+    ({"yieldStress": 9e8}, {"yieldStress": 1.1e9}),
     ({"plateau.upper": 4.2e8, "plateau.lower": 2.1e8}, {"plateau.upper": 6e8, "plateau.lower": 1.5e8}),
 ])
 def test_yield_and_plateau_are_found_from_a_loop_of_force(run_of, tmp_path, law, start):
