@@ -24,6 +24,7 @@ import numpy as np
 from analysis.wall_search import Walls, triangles_of
 from experiments.campaigns import material_claims
 from experiments.campaigns.push_campaign import CODES, OF_ENDS
+from experiments.campaigns.push_claims import RIM
 from experiments.campaigns.results import Record
 from experiments.campaigns.runs import close, fill, folder_of, parser_of
 from guidewire.logs.logs import read_log
@@ -144,7 +145,7 @@ def make(runner: Runner, seed: int, folder: Path) -> Feed:
         if abs(change) > SAME_LINK:
             claims.append(f"drawn back, the wire has {change:.3g} turns")
     claims += [f"warning: {warning}" for warning in summary["warnings"]
-               if not any(words in warning for words in OF_ENDS)]
+               if not any(words in warning for words in (*OF_ENDS, RIM))]
     return Feed(seed, kind, claims, seconds, answer.outcome, summary["reason"], summary["solver"]["factorisations"],
                 sum(one.may_be_round_the_tip for one in passed), change)
 
