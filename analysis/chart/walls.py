@@ -244,7 +244,8 @@ def _wound(n: int, turn: float) -> dict[str, Any]:
     modulus = _WOUND_BENDING / (0.25 * math.pi * radius**4)
     tension = _WOUND_BENDING / _WOUND_SCALE**2
     return {
-        "solver": "direct", "integrator": "implicitEuler", "guidewireLength": _WOUND_LENGTH * _WOUND_SCALE / scenes.UNIT,
+        "solver": "direct", "integrator": "implicitEuler",
+        "guidewireLength": _WOUND_LENGTH * _WOUND_SCALE / scenes.UNIT,
         "numberRodElements": n, "guidewireOffset": 0.0, "wireRadius": radius, "youngsModulus": modulus,
         "shearModulus": 24.0 * modulus, "density": 0.02 / (math.pi * radius**2), "axialStiffness": 400.0 * tension,
         "proximalEnd": "clamped", "distalEnd": "sliding", "axialForce": tension, "gravity": [0.0, 1.0, 0.0],
@@ -264,7 +265,8 @@ def _plectoneme() -> scenes.Asking[Asked]:
 
     made = [Setting("direct", f"n = {n}, {turn:g} rad a step", f"n{n} {turn:g}", case(
         f"direct-{n}-{turn}", "direct", _wound(n, turn))) for n, turn in (
-            (60, 0.25), (60, 0.1), (90, 0.1), (120, 0.25), (120, 0.1), (120, 0.05), (180, 0.1), (240, 0.1), (240, 0.05))]
+            (60, 0.25), (60, 0.1), (90, 0.1), (120, 0.25), (120, 0.1), (120, 0.05), (180, 0.1), (240, 0.1),
+            (240, 0.05))]
     return Asked(made, lambda _: (error, "a boundary-value problem with contact between pairs of nodes"))
 
 

@@ -180,8 +180,8 @@ def main(arguments: Sequence[str]) -> int:
     name = f"push {given.method}{more}"
     command, record = building.build(building.RUNNER, print), Record(given.record)
     with folder_of(given) as folder:
-        lines = fill(record, given, lambda seeds: campaign(command, seeds, folder, given.method, given.soft, given.core),
-                     red(name))
+        lines = fill(record, given, lambda seeds: campaign(command, seeds, folder, given.method, given.soft,
+                                                           given.core), red(name))
     return close(name, f"push_campaign --method {given.method}{more.replace(' ', ' --')}", lines, given,
                  beyond=sum(one["beyond"] > MOST_BEYOND for one in lines),
                  touching=sum(one.get("is_touching", False) for one in lines),

@@ -52,7 +52,8 @@ def writhe(points: np.ndarray, extension: float = 0.0) -> float:
         points = np.vstack([points[0] + reach * first / np.linalg.norm(first), points,
                             points[-1] + reach * last / np.linalg.norm(last)])
     i, j = np.triu_indices(len(points) - 1, 2)
-    corners = [points[j] - points[i], points[j + 1] - points[i], points[j + 1] - points[i + 1], points[j] - points[i + 1]]
+    ends = ((i, j), (i, j + 1), (i + 1, j + 1), (i + 1, j))
+    corners = [points[other] - points[one] for one, other in ends]
     lengths = [np.linalg.norm(corner, axis=1) for corner in corners]
     a, b, c, d = (corner / np.where(length > 0.0, length, 1.0)[:, None]
                   for corner, length in zip(corners, lengths, strict=True))

@@ -415,8 +415,8 @@ def test_the_command_writes_values_picture_and_scene(run_of, tmp_path, capsys):
     ({"plateau.upper": 4.2e8, "plateau.lower": 2.1e8}, {"plateau.upper": 6e8, "plateau.lower": 1.5e8}),
 ])
 def test_yield_and_plateau_are_found_from_a_loop_of_force(run_of, tmp_path, law, start):
-    """A wire is pushed through a bend of 7 mm and drawn back: the hub's force over time, with noise of 1 %, has the heat
-    of the way there and back."""
+    """A wire is pushed through a bend of 7 mm and drawn back: the hub's force over time, with noise of 1 %, has the
+    heat of the way there and back."""
     angles = np.radians(np.linspace(0.0, 70.0, 15))
     bend = [[7.0 * (1.0 - np.cos(angle)), 0.0, 7.0 * np.sin(angle)] for angle in angles]
     on = [bend[-1][0] + 20.0 * np.sin(angles[-1]), 0.0, bend[-1][2] + 20.0 * np.cos(angles[-1])]

@@ -161,8 +161,8 @@ namespace Guidewire.Core
         /// <param name="offset">Of the other numbers.</param>
         /// <param name="first">The first sphere here whose force counts.</param>
         /// <param name="firstElement">The first element that counts.</param>
-        internal void CopyTo(Vector3d[] forces, Vector3d[] strandForces, Vector3d[] displacements, int offset, int first,
-            int firstElement)
+        internal void CopyTo(Vector3d[] forces, Vector3d[] strandForces, Vector3d[] displacements, int offset,
+            int first, int firstElement)
         {
             Copy(Forces, forces, offset, first, _spheres);
             Copy(StrandForces, strandForces, offset, first, _spheres);
@@ -198,8 +198,8 @@ namespace Guidewire.Core
             snapshot.Serialize(ElementForces, _spheres - 1);
         }
 
-        /// <summary>The displacements of soft walls and the forces of strands, which another run of the same wire may not
-        /// have.</summary>
+        /// <summary>The displacements of soft walls and the forces of strands, which another run of the same wire may
+        /// not have.</summary>
         internal void SerializeOptional(Snapshot snapshot)
         {
             snapshot.Serialize(Displacements, Math.Min(Displacements.Length, _spheres - 1));

@@ -236,7 +236,9 @@ namespace Guidewire.Core
             WallPressure = Larger(WallPressure, pressure);
         }
 
-        /// <summary>Takes the largest force between two elements, N; NaN where the wire does not touch itself.</summary>
+        /// <summary>Takes the largest force between two elements, N.</summary>
+        /// <param name="force">NaN where the wire does not touch itself.</param>
+        /// <param name="time">s.</param>
         internal void TakeStrands(double force, double time)
         {
             if (force > 0.0 && !(StrandForce >= force))

@@ -105,8 +105,8 @@ namespace Guidewire.Core
         /// <summary>Gives the node of a slot.</summary>
         public int NodeOf(int slot) => _nodeOf[slot];
 
-        /// <summary>Gives the length that a slot stands for, m: half of the elements beside its node, where its material
-        /// is.</summary>
+        /// <summary>Gives the length that a slot stands for, m: half of the elements beside its node, where its
+        /// material is.</summary>
         public double LengthOf(int slot)
         {
             int k = NodeOf(slot);

@@ -171,8 +171,8 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Takes the forces of walls and strands on an instrument, and how far walls give way. A node of the chain is one
-        /// of the outermost instrument there; that at a tip is the outer one's.</summary>
+        /// <summary>Takes the forces of walls and strands on an instrument, and how far walls give way. A node of
+        /// the chain is one of the outermost instrument there; that at a tip is the outer one's.</summary>
         protected void TakeWalls(int instrument, Vector3d[] forces, Vector3d[] strandForces, Vector3d[] displacements)
         {
             CoaxialJoints joints = Chain.Rod.Joints;

@@ -205,8 +205,8 @@ namespace Guidewire.Core.Tests
             return heat / (1e-3 * perStep * (steps - from));
         }
 
-        /// <summary>Steel that is bent in a vessel and drawn back, into a sheath too: the hub's work is the heat and what
-        /// the bends that it keeps store, straight in the sheath as well.</summary>
+        /// <summary>Steel that is bent in a vessel and drawn back, into a sheath too: the hub's work is the heat and
+        /// what the bends that it keeps store, straight in the sheath as well.</summary>
         [Category("Row")]
         [TestCase(true, false)]
         [TestCase(true, true)]

@@ -30,7 +30,7 @@ namespace Guidewire.Core.Tests
             Assert.That(simulation.Warnings, Has.Some.Contains("passed through itself"));
         }
 
-        /// <summary>The feed that without contact passes itself, with every scheme and between walls that give way.</summary>
+        /// <summary>The feed that without contact passes itself, with every scheme and between soft walls.</summary>
         [Category("Long")]
         [TestCase(Integrator.Trbdf2, 0.0)]
         [TestCase(Integrator.Bdf2, 0.0)]
