@@ -143,8 +143,8 @@ class Report:
     def as_info(self) -> dict[str, Any]:
         """Return for `info` numbers, "forces" as a list, and of several instruments "instruments" by name."""
         shown = {key: value for key, value in vars(self).items() if key not in ("parts", "forces")}
-        shown |= {key: getattr(self, key) for key in ("safe_success", "left", "largest_force", "strand_force", "impulse",
-                                                      "path", "inserted", "retracted", "turned")}
+        shown |= {key: getattr(self, key) for key in ("safe_success", "left", "largest_force", "strand_force",
+                                                      "impulse", "path", "inserted", "retracted", "turned")}
         shown["forces"] = list(self.forces)
         if len(self.parts) > 1:
             shown["instruments"] = {name: dict(vars(part)) for name, part in zip(names_of(len(self.parts)), self.parts)}

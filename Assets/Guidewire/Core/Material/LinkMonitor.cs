@@ -148,8 +148,8 @@ namespace Guidewire.Core
         }
 
         // The next element, from one on, whose middle in the picture is no farther than the longest element from that
-        // of another one; n where there is none. From one element to the next the middle goes no farther than that: what
-        // is far away stays so for a number of elements that need not be looked at.
+        // of another one; n where there is none. From one element to the next the middle goes no farther than that:
+        // what is far away stays so for a number of elements that need not be looked at.
         private int Next(int n, int element, int from, double longest)
         {
             Vector3d middle = 0.5 * (_picture[element] + _picture[element + 1]);

@@ -14,8 +14,8 @@ namespace Guidewire.Core.Tests
         private const double Tension = 1.0;    // N
 
         /// <summary>A planar loop of the elastica whose ends are turned against each other by an angle, of which the
-        /// loop takes 2 pi. With the couple GJ/L (angle - psi) below 1.81 a T nothing holds it, and it opens. At 4 pi the
-        /// contact holds it, at M = 0.3285.</summary>
+        /// loop takes 2 pi. With the couple GJ/L (angle - psi) below 1.81 a T nothing holds it, and it opens. At 4 pi
+        /// the contact holds it, at M = 0.3285.</summary>
         [Category("Row")]
         [TestCase(2.0, false)]
         [TestCase(2.6, false)]
