@@ -203,8 +203,8 @@ def make_channels(units: Units, numbers: Mapping[str, np.ndarray | None]) -> lis
         of the first catheter "contact_forces1"; "strand_forces" (k, n+1, 3), N; "wall_displacements" (k, n, 3), m, the
         same; "reaction" (k, 3); "couple" (k, n+1, 3), N m; "coreStrain" and "coreShare" (k, n+1); "kineticEnergy",
         "elasticEnergy" and "potentialEnergy" (k,), J; what a log has of the hub, (k,), with "hub." before its key;
-        "lumen" (k, 3), as of `lumen_of`; "inBody" (k,), spheres out of a sheath; "step_time" (k,), ms; "real_time" (k,), times
-        faster.
+        "lumen" (k, 3), as of `lumen_of`; "inBody" (k,), spheres out of a sheath; "step_time" (k,), ms; "real_time" (k,),
+        times faster.
     """
     known = {name: values for name, values in numbers.items() if values is not None}
     positions = known["positions"]

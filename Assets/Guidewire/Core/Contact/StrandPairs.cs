@@ -6,10 +6,11 @@ namespace Guidewire.Core
     /// nodes stay near where they were when it was made.</summary>
     /// <remarks>A piece of a curve of length s that turns by less than pi has a chord of at least s cos(turn/2)
     /// (Schur). So most of a wire needs no look: neither neighbouring blocks of elements that turn little, nor those
-    /// farther apart between which it does not turn back. Whether a whole wire turns by less than pi says little: its tip
-    /// may be a J. Other blocks have their boxes compared. With d the displacement of a node since the list was made, two
-    /// elements with k others between them come nearer by no more than 2 max|d|, nor by more than k + 2 times the
-    /// largest difference of d between neighbouring nodes: a wire that slides along itself has the latter small.</remarks>
+    /// farther apart between which it does not turn back. Whether a whole wire turns by less than pi says little: its
+    /// tip may be a J. Other blocks have their boxes compared. With d the displacement of a node since the list was
+    /// made, two elements with k others between them come nearer by no more than 2 max|d|, nor by more than k + 2 times
+    /// the largest difference of d between neighbouring nodes: a wire that slides along itself has the latter
+    /// small.</remarks>
     internal sealed class StrandPairs
     {
         private const int BlockSize = 8;           // elements
