@@ -117,4 +117,5 @@ def test_the_shipped_tree_beats_and_the_wire_follows(live, tmp_path):
     answer = live.run(Request("coronary", ROOT / "params/coronary.json", tmp_path / "run"))
     summary = json.loads((tmp_path / "run/summary.json").read_text())
     assert answer.exit_code == 0 and summary["reliable"] and summary["passages"] == 0
-    assert summary["maxPenetration"] == 0.0 and summary["reached"]
+    assert summary["maxPenetration"] == 0.0 and summary["extremes"]["wallWork"] != 0.0
+    assert summary["centreline"]["inLumen"] and summary["centreline"]["farthest"] > 80.0
