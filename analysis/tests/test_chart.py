@@ -101,7 +101,8 @@ def test_the_picture_of_steps_has_lines_for_loops() -> None:
 
 
 def test_what_others_state_stands_in_the_picture_of_steps_with_its_source_and_without_an_error() -> None:
-    pushed = replace(charted(*POINTS), problem=replace(walls.PROBLEMS[-1], ask=lambda: None))
+    (arch,) = (one for one in walls.PROBLEMS if one.name == "insertion")
+    pushed = replace(charted(*POINTS), problem=replace(arch, ask=lambda: None))
     drawn, caption = figure.draw_steps([charted(*POINTS), pushed])
     (one,) = PUBLISHED
     bars = [[line for line in axes.lines if line.get_marker() == "|"] for axes in drawn.axes[:2]]

@@ -34,7 +34,7 @@ MAY_BE_NULL = {
     "largestError", "timeStepError", "stableSubstep", "energy", "equilibriumResidual", "smallestEigenvalue",
     "proximalForce", "proximalMoment", "distalForce", "distalMoment", "wallIterations", "halvedSteps",
     "contactDistance", "contactStiffness", "extremes", "axialForce", "axialTorque", "elementForce", "wallPressure",
-    "wallDisplacement", "wallWork", "frictionPower", "frictionWork",
+    "strandForce", "strandForceTime", "wallDisplacement", "wallWork", "frictionPower", "frictionWork",
 }
 FORCES = {"largestContactForce", "largestWallForce"}    # impulses over timeStep
 WALL_TIMES = ("computationTime", "setUpTime", "wallTime", "averageStepTime", "medianStepTime", "elapsedMilliseconds")

@@ -65,7 +65,7 @@ class Steered:
         self.state: State | None = None
         self._dt = float(parameters["timeStep"])
         self._metres = float(parameters.get("metresPerUnit", 1e-3))
-        self._insertion = self._rotation = 0.0
+        self._insertion = self._rotation = self._carried = 0.0
         self._rows: list[tuple[int, float, float]] = [(0, 0.0, 0.0)]  # step, m, rad
 
     @property
@@ -76,8 +76,8 @@ class Steered:
     def add(self, push: float, turn: float, steps: int, state: State, insertion: float | None = None) -> None:
         """Note a call that asked for so many steps with so much push (units) and turn (rad) in each.
 
-        With the hub's insertion after it (m), of one that may stop at another hub, the table goes no farther than that:
-        a file that asks for more is refused.
+        With the hub's insertion after it (m), of one that meets other hubs, the table goes no farther than that. What
+        another hub made of it by carrying this one along is left out: it does so again.
         """
         if self.problem:
             return
@@ -85,8 +85,14 @@ class Steered:
         self.state = state
         self.calls.append((push * steps, turn * steps, steps))
         displacement = self._metres * push
-        asked = self._insertion + displacement * (state.step - before)
-        end = insertion if insertion is not None and abs(insertion - asked) > _STOPPED else None
+        asked = self._insertion + self._carried + displacement * (state.step - before)
+        beyond = 0.0 if insertion is None else insertion - asked
+        end = None
+        if insertion is not None and abs(beyond) > _STOPPED:
+            if beyond * displacement < 0.0:
+                end = insertion - self._carried
+            else:
+                self._carried += beyond
         for step in range(before + 1, state.step + 1):
             self._insertion += displacement
             if end is not None:

@@ -98,7 +98,8 @@ namespace Guidewire.Core
                 + "first element of the catheter around it", least);
         }
 
-        // Of hubs whose motion is known before: each with the next one around it.
+        // Of hubs whose motion is known before: each with the next one around it, where one is held fast. One that is
+        // driven is carried along.
         private static ParameterConflict? FindCrossing(SimulationParameters parameters)
         {
             int count = parameters.Scene.Catheters.Count;
@@ -116,6 +117,10 @@ namespace Guidewire.Core
             Catheter catheter = catheters[k];
             bool isAroundWire = k == catheters.Count - 1;
             DriveParameters inside = isAroundWire ? parameters.Drive : catheters[k + 1].Drive;
+            if (!IsFixed(inside) && !IsFixed(catheter.Drive))
+            {
+                return null;
+            }
             double start = isAroundWire ? 0.0 : catheters[k + 1].Start;
             double duration = parameters.Method.MaxSimulationSteps * parameters.Method.TimeStep;
             double lead = parameters.Scene.MetresPerUnit * (catheter.Start - start) + InsertionAtStart(parameters, k)
@@ -148,6 +153,8 @@ namespace Guidewire.Core
                 : catheter < start.Catheters.Count ? start.Catheters[catheter] : null;
             return own?.Hub?.Insertion ?? 0.0;
         }
+
+        private static bool IsFixed(DriveParameters drive) => drive.Table == null && drive.Kind == Drive.Hold;
 
         private static double Insertion(DriveParameters drive, double time)
         {

@@ -53,19 +53,24 @@ export class Steered {
     this._metres = parameters.metresPerUnit ?? 1e-3;
     /** Step, m, rad. */
     this._rows = [[0, 0, 0]];
+    /** What other hubs have made of it by carrying it along, m. */
+    this._carried = 0;
   }
 
   /**
    * Notes a call.
    * @param {number} push in each step, units @param {number} turn in each step, rad @param {number} step after it
-   * @param {number | null} reached insertion after it, m, of a hub that others may stop
+   * @param {number | null} reached insertion after it, m, of a hub that meets others
    */
   add(push, turn, step, reached) {
     if (this.problem) return;
     let [before, insertion, rotation] = this._rows[this._rows.length - 1];
     const displacement = this._metres * push;
-    const asked = insertion + displacement * (step - before);
-    const end = reached !== null && Math.abs(reached - asked) > this._rules.stopped ? reached : null;
+    const beyond = reached === null ? 0
+      : reached - (insertion + this._carried + displacement * (step - before));
+    const differs = Math.abs(beyond) > this._rules.stopped;
+    const end = differs && beyond * displacement < 0 ? Number(reached) - this._carried : null;
+    if (differs && end === null) this._carried += beyond;
     while (before < step) {
       insertion += displacement;
       if (end !== null) insertion = displacement > 0 ? Math.min(insertion, end) : Math.max(insertion, end);

@@ -101,10 +101,11 @@ def run_of_tables(runner_command, folder, file, tables, steps):
     return read_log(folder / "run", "all")
 
 
-@pytest.mark.parametrize("held, push, gone", [(0, 0.8, 4.0), (1, -0.8, -4.0), (0, -7.0, -50.0)])
+@pytest.mark.parametrize("held, push, gone", [(0, 0.8, 8.0), (1, -0.8, -8.0), (0, -7.0, -50.0)])
 @pytest.mark.few(1)
 def test_saved_tables_of_a_hub_that_was_stopped_are_taken_and_repeat_it(runner_command, tmp_path, held, push, gone):
-    """By the other hub, or as the wire's tip is in the catheter's first element; then it goes back."""
+    """By the other hub, which it carries along, or as the wire's tip is in the catheter's first element; then it goes
+    back."""
     file = tmp_path / "scene.json"
     tube = {"wireRadius": 8e-4, "lumenRadius": 6e-4, "youngsModulus": 4e9, "shearModulus": 1.5e9}
     file.write_text(json.dumps({

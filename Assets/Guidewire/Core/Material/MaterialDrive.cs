@@ -253,12 +253,13 @@ namespace Guidewire.Core
 
         private double OwnAt(double time) => _direction == null ? 0.0 : SpeedAt(time) * _timeStep;
 
-        // What it is asked where those behind it press on it, m.
+        // What it is asked where the drives of those behind it press on it, m. What slips presses on none.
         private double PushedAt(double time)
         {
             double own = OwnAt(time);
             return _behind == null || _direction == null || own < 0.0 ? own
-                : Math.Max(own, (_behind._override ?? _behind.PushedAt(time)) - _gap!(time));
+                : Math.Max(own, Math.Min(_behind._override ?? double.PositiveInfinity, _behind.PushedAt(time))
+                    - _gap!(time));
         }
 
         // The same of those ahead, which draw back.
@@ -266,7 +267,8 @@ namespace Guidewire.Core
         {
             double own = OwnAt(time);
             return _ahead == null || _direction == null || own > 0.0 ? own
-                : Math.Min(own, (_ahead._override ?? _ahead.PulledAt(time)) + _ahead._gap!(time));
+                : Math.Min(own, Math.Max(_ahead._override ?? double.NegativeInfinity, _ahead.PulledAt(time))
+                    + _ahead._gap!(time));
         }
 
         private double Rate(TimeTable table, double time) => (table.At(time + _timeStep) - table.At(time)) / _timeStep;
