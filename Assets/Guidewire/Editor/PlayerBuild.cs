@@ -2,8 +2,11 @@ using System;
 using System.IO;
 using System.Linq;
 using Guidewire.Io;
+using Guidewire.Runtime;
 using UnityEditor;
+using UnityEditor.Build;
 using UnityEditor.Build.Reporting;
+using UnityEditor.UnityLinker;
 using UnityEngine;
 
 namespace Guidewire.Editor
@@ -75,6 +78,34 @@ namespace Guidewire.Editor
                 Directory.CreateDirectory(Path.GetDirectoryName(copy)!);
                 File.Copy(file, copy, true);
             }
+        }
+    }
+
+    /// <summary>Batch mode of the editor: <c>-executeMethod Guidewire.Editor.BatchEntry.Run ... -guidewire -parameters
+    /// FILE -out DIR</c>. Without play mode, which would reload the domain and lose the run.</summary>
+    public static class BatchEntry
+    {
+        /// <summary>Does one run and ends the editor with its exit code.</summary>
+        public static void Run() => EditorApplication.Exit(BatchRun.Execute(Environment.GetCommandLineArgs()));
+    }
+
+    /// <summary>Keeps Core and Io whole where a player's build strips unused code: keys of parameter files find their
+    /// properties by name, which no linker sees. A link.xml would not be read in an installed package.</summary>
+    public sealed class LinkerStep : IUnityLinkerProcessor
+    {
+        private const string Kept = "<linker>\n  <assembly fullname=\"Guidewire.Core\" preserve=\"all\" />\n"
+            + "  <assembly fullname=\"Guidewire.Io\" preserve=\"all\" />\n</linker>\n";
+
+        /// <inheritdoc/>
+        public int callbackOrder => 0;
+
+        /// <inheritdoc/>
+        public string GenerateAdditionalLinkXmlFile(BuildReport report, UnityLinkerBuildPipelineData data)
+        {
+            string file = Path.GetFullPath(Path.Combine("Temp", "guidewire-link.xml"));
+            Directory.CreateDirectory(Path.GetDirectoryName(file)!);
+            File.WriteAllText(file, Kept);
+            return file;
         }
     }
 }

@@ -54,7 +54,7 @@ def test_player_is_given_neither(player: unity_runner.Unity, tmp_path: Path) -> 
 
 
 def test_entry_exists() -> None:
-    source = (unity_runner.ROOT / "Assets/Guidewire/Editor/BatchEntry.cs").read_text(encoding="utf-8")
+    source = (unity_runner.ROOT / "Assets/Guidewire/Editor/PlayerBuild.cs").read_text(encoding="utf-8")
     assert "namespace Guidewire.Editor" in source and "static class BatchEntry" in source
     assert "public static void Run()" in source
 

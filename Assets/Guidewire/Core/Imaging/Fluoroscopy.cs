@@ -1,5 +1,7 @@
 using System;
 using System.Collections.Generic;
+using System.Numerics;
+using System.Runtime.CompilerServices;
 
 namespace Guidewire.Core
 {
@@ -172,5 +174,152 @@ namespace Guidewire.Core
                 _lumens[i] = new LumenThickness(_vessels[i], pixels);
             }
         }
+    }
+
+    /// <summary>The noise of counted quanta, from a seed: the sum of the four bytes of a hash of seed and pixel, which
+    /// is near to a normal distribution. Integers of 32 bits only, so that a shader has the same noise.</summary>
+    internal static class QuantumNoise
+    {
+        // Mean, and variance 4 (256^2 - 1)/12, of the sum of four bytes.
+        private const int Mean = 510;
+        private static readonly float PerDeviation = (float)(1.0 / Math.Sqrt(4.0 * 65535.0 / 12.0));
+
+        /// <summary>Gives what a seed contributes to every pixel's hash.</summary>
+        public static uint Start(uint seed) => Mixed(seed ^ 0x9e3779b9u);
+
+        /// <summary>Gives a pixel's deviation, in standard deviations.</summary>
+        /// <param name="start">Of the seed.</param>
+        /// <param name="pixel">Its number.</param>
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        public static float At(uint start, uint pixel)
+        {
+            uint h = Mixed(start + pixel);
+            uint pairs = (h & 0x00ff00ffu) + ((h >> 8) & 0x00ff00ffu);
+            return ((int)((pairs & 0xffffu) + (pairs >> 16)) - Mean) * PerDeviation;
+        }
+
+        // lowbias32 by C. Wellons.
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        private static uint Mixed(uint h)
+        {
+            h ^= h >> 16;
+            h *= 0x7feb352du;
+            h ^= h >> 15;
+            h *= 0x846ca68bu;
+            return h ^ (h >> 16);
+        }
+    }
+
+    /// <summary>Blurs a picture by a Gaussian focal spot of the X-ray tube: rows, then columns. Beyond its border the
+    /// picture is continued with the values at the border.</summary>
+    internal sealed class SpotBlur
+    {
+        private const double Extent = 3.0;    // standard deviations
+
+        private readonly float[] _rows;
+        private readonly int _pixels;
+        private float[] _line = Array.Empty<float>();       // a row, with what is beyond its ends
+        private float[] _weights = Array.Empty<float>();    // of the middle pixel and of those beside it
+        private double _deviation;
+
+        /// <param name="pixels">Of a side.</param>
+        public SpotBlur(int pixels)
+        {
+            _pixels = pixels;
+            _rows = new float[pixels * pixels];
+        }
+
+        /// <summary>Blurs a picture by the tube's spot.</summary>
+        /// <param name="picture">Row by row.</param>
+        /// <param name="deviation">Standard deviation, pixels, above 0.</param>
+        public void Apply(float[] picture, double deviation)
+        {
+            SetWeights(deviation);
+            int extent = _weights.Length - 1;
+            for (int row = 0; row < _pixels; row++)
+            {
+                int start = row * _pixels;
+                Array.Copy(picture, start, _line, extent, _pixels);
+                _line.AsSpan(0, extent).Fill(picture[start]);
+                _line.AsSpan(extent + _pixels, extent).Fill(picture[start + _pixels - 1]);
+                Array.Clear(_rows, start, _pixels);
+                Add(_weights[0], _line, extent, _rows, start);
+                for (int k = 1; k <= extent; k++)
+                {
+                    Add(_weights[k], _line, extent - k, _rows, start);
+                    Add(_weights[k], _line, extent + k, _rows, start);
+                }
+            }
+            Array.Clear(picture, 0, picture.Length);
+            for (int row = 0; row < _pixels; row++)
+            {
+                for (int k = -extent; k <= extent; k++)
+                {
+                    int from = Math.Min(Math.Max(row + k, 0), _pixels - 1) * _pixels;
+                    Add(_weights[Math.Abs(k)], _rows, from, picture, row * _pixels);
+                }
+            }
+        }
+
+        private void Add(float weight, float[] from, int first, float[] to, int start)
+        {
+            int x = 0;
+            for (; x <= _pixels - Vector<float>.Count; x += Vector<float>.Count)
+            {
+                (new Vector<float>(to, start + x) + weight * new Vector<float>(from, first + x)).CopyTo(to, start + x);
+            }
+            for (; x < _pixels; x++)
+            {
+                to[start + x] += weight * from[first + x];
+            }
+        }
+
+        private void SetWeights(double deviation)
+        {
+            if (deviation == _deviation)
+            {
+                return;
+            }
+            _deviation = deviation;
+            int extent = Math.Min((int)Math.Ceiling(Extent * deviation), _pixels);
+            _weights = new float[extent + 1];
+            double sum = -1.0;
+            for (int k = 0; k <= extent; k++)
+            {
+                sum += 2.0 * Weight(k, deviation);
+            }
+            for (int k = 0; k <= extent; k++)
+            {
+                _weights[k] = (float)(Weight(k, deviation) / sum);
+            }
+            _line = new float[_pixels + 2 * extent];
+        }
+
+        private static double Weight(int k, double deviation) => Math.Exp(-0.5 * k * k / (deviation * deviation));
+    }
+
+    /// <summary>The view of a run's picture, as requested. Lengths are in mm unless stated otherwise.</summary>
+    public sealed class PictureView
+    {
+        /// <summary>LAO, degrees; RAO is negative.</summary>
+        public double LeftOblique { get; set; }
+
+        /// <summary>Degrees; caudal is negative.</summary>
+        public double Cranial { get; set; }
+
+        /// <summary>What is in the middle, units; null: the middle of the vessel, or without one of the wire.</summary>
+        public Vector3d? Centre { get; set; }
+
+        /// <summary>Side of the square, mm; null: so that the vessel, or without one the wire, is seen.</summary>
+        public double? FieldOfView { get; set; }
+
+        /// <summary>Pixels of a side.</summary>
+        public int Pixels { get; set; } = 256;
+
+        /// <summary>Linear attenuation coefficient of all instruments, 1/mm; null: by their materials.</summary>
+        public double? Attenuation { get; set; }
+
+        /// <summary>The settings of the picture, with mm in place of units.</summary>
+        public FluoroscopySettings Settings { get; } = new FluoroscopySettings();
     }
 }

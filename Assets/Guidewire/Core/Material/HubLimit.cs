@@ -1,4 +1,5 @@
 using System;
+using System.Globalization;
 
 namespace Guidewire.Core
 {
@@ -68,5 +69,105 @@ namespace Guidewire.Core
 
         /// <summary>What a force has beyond it, N, with its sign; NaN of no number.</summary>
         public double Excess(double force) => force > Push ? force - Push : force < -Pull ? force + Pull : 0.0 * force;
+    }
+
+    /// <summary>What a hub does at its limit: since when it has slipped, and what force steps had beyond it.</summary>
+    internal sealed class SlipRecord
+    {
+        private const double Exact = 1e-3;      // of the limit
+
+        private readonly HubLimit _limit;
+        private double _first = double.NaN;     // s
+        private int _stepsBeyond;
+        private double _maxBeyond;              // N
+
+        /// <summary>Of a hub that has not moved.</summary>
+        public SlipRecord(in HubLimit limit)
+        {
+            _limit = limit;
+        }
+
+        /// <summary>The end of the first step in which it slipped, s; NaN where there is none.</summary>
+        public double SlippedFrom => _first;
+
+        /// <summary>That it slipped, in one phrase, or null.</summary>
+        public string? Why => double.IsNaN(_first) ? null : string.Format(CultureInfo.InvariantCulture,
+            "it slipped at its hubForceLimit of {0:G3} N{1}, first at t = {2:G4} s", _limit.Push,
+            _limit.IsOfHand ? ", that of a hand" : "", _first);
+
+        /// <summary>Takes a step that has ended.</summary>
+        /// <param name="slipped">Whether it went another way than it was asked, at its limit.</param>
+        /// <param name="force">N.</param>
+        /// <param name="time">s.</param>
+        public void Record(bool slipped, double force, double time)
+        {
+            bool isBeyond = Math.Abs(force) > (1.0 + Exact) * _limit.Of(force);
+            if ((slipped || isBeyond) && double.IsNaN(_first))
+            {
+                _first = time;
+            }
+            if (isBeyond)
+            {
+                _stepsBeyond++;
+                _maxBeyond = Math.Max(_maxBeyond, Math.Abs(force));
+            }
+        }
+
+        /// <summary>That it had more than its limit, or null.</summary>
+        /// <param name="name">What the warning calls the hub.</param>
+        public RunWarning? FindExcess(string name)
+        {
+            return _stepsBeyond == 0 ? (RunWarning?)null
+                : WarningTable.HubForce.With(name, _maxBeyond, Math.Min(_limit.Push, _limit.Pull), _stepsBeyond);
+        }
+
+        /// <summary>Writes or restores all of it.</summary>
+        public void Serialize(Snapshot snapshot)
+        {
+            snapshot.Serialize(ref _stepsBeyond);
+            snapshot.Serialize(ref _maxBeyond);
+            snapshot.Serialize(ref _first);
+        }
+    }
+
+    /// <summary>Axial forces at which an instrument bows out, by Euler's column. They are the limits of an operator's
+    /// gauges, and no part of a step.</summary>
+    public static class BucklingLoad
+    {
+        /// <summary>Length of a tip that is pressed, m: as data sheets of guidewires measure a tip load.</summary>
+        public const double TipLength = 0.01;
+
+        /// <summary>Length of a shaft between an operator's fingers and the valve that it is pushed through,
+        /// m.</summary>
+        public const double ShaftLength = 0.05;
+
+        private const int Places = 64;
+
+        /// <summary>Of the last <see cref="TipLength"/>, held behind it and pressed at its end, N. Rayleigh's quotient
+        /// with the shape of an even column, exact for such a one.</summary>
+        /// <param name="material">Of the instrument.</param>
+        /// <param name="length">Of the instrument, units.</param>
+        /// <param name="metres">Of a unit.</param>
+        public static double OfTip(MaterialParameters material, double length, double metres)
+        {
+            double free = Math.Min(TipLength, length * metres);
+            double sum = 0.0;
+            for (int k = 0; k < Places; k++)
+            {
+                double along = (k + 0.5) / Places;    // from where it is held
+                double cosine = Math.Cos(0.5 * Math.PI * along);
+                double at = length - (1.0 - along) * free / metres;
+                sum += 2.0 * cosine * cosine * CrossSection.At(material, at).BendStiffness1 / Places;
+            }
+            return 0.25 * Math.PI * Math.PI * sum / (free * free);
+        }
+
+        /// <summary>Of the shaft at its hub, its direction held at both ends of <see cref="ShaftLength"/>, N.</summary>
+        /// <param name="material">Of the instrument.</param>
+        public static double OfShaft(MaterialParameters material)
+        {
+            double stiffness = CrossSection.At(material, 0.0).BendStiffness1;
+            return 4.0 * Math.PI * Math.PI * stiffness / (ShaftLength * ShaftLength);
+        }
     }
 }

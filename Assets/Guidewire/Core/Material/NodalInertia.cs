@@ -1,5 +1,14 @@
 namespace Guidewire.Core
 {
+    /// <summary>A distribution of a wire's mass, for its kinetic energy.</summary>
+    internal interface IKineticEnergy
+    {
+        /// <summary>Gives the kinetic energy, J.</summary>
+        /// <param name="velocities">Of the n+1 nodes, m/s.</param>
+        /// <param name="spins">Of the n elements along their own axes, rad/s.</param>
+        double KineticEnergy(Vector3d[] velocities, Vector3d[] spins);
+    }
+
     /// <summary>Inverse masses of nodes and inverse inertias of elements, for methods that need them
     /// individually.</summary>
     internal sealed class NodalInertia : IKineticEnergy
@@ -54,5 +63,26 @@ namespace Guidewire.Core
             }
             return 0.5 * twice;
         }
+    }
+
+    /// <summary>Kinetic energy, by the mass matrix, of the free nodes only: the speed of a support is
+    /// prescribed.</summary>
+    internal sealed class FreeInertia : IKineticEnergy
+    {
+        private readonly RodMass _mass;
+        private readonly int _first;
+        private readonly int _held;
+
+        /// <summary>Makes that of a wire between these supports.</summary>
+        public FreeInertia(RodMass mass, RodSupports supports)
+        {
+            _mass = mass;
+            _first = supports.Proximal == ProximalEnd.Free ? 0 : 1;
+            _held = supports.HoldsLastNode ? 1 : 0;
+        }
+
+        /// <inheritdoc/>
+        public double KineticEnergy(Vector3d[] velocities, Vector3d[] spins) =>
+            _mass.KineticEnergy(velocities, spins, _first, _mass.ElementCount - _held);
     }
 }

@@ -81,4 +81,64 @@ namespace Guidewire.Core
         /// <summary>The same values; lists and walls are shared.</summary>
         internal DriveParameters Copy() => (DriveParameters)MemberwiseClone();
     }
+
+    /// <summary>What moves sphere 0.</summary>
+    public enum Drive
+    {
+        /// <summary>One displacement at the start, then held: the steady-state simulation of thesis 3.1.4.</summary>
+        Hold,
+
+        /// <summary>Moved every step along a fixed direction.</summary>
+        Displace,
+
+        /// <summary>Moved every step along the first rod element (thesis eq. 3.6).</summary>
+        Push,
+
+        /// <summary>Free, under an external force.</summary>
+        Force,
+    }
+
+    /// <summary>User steering of the wire: set between two steps, read in the next.</summary>
+    public sealed class Steering
+    {
+        /// <summary>Motion of sphere 0 along the first element in the next step (thesis eq. 3.6), units; negative
+        /// values pull.</summary>
+        public double Push { get; set; }
+
+        /// <summary>Turn of element 0 about its own axis in the next step, rad.</summary>
+        public double Turn { get; set; }
+
+        /// <summary>Strain of an element at which a pbd wire slips in the hand; infinite: never.</summary>
+        public double SlipStrain { get; set; } = double.PositiveInfinity;
+    }
+
+    /// <summary>What holds the proximal end of a material rod.</summary>
+    public enum ProximalEnd
+    {
+        /// <summary>Sphere 0 is held, its frame turns freely: a ball joint.</summary>
+        Held,
+
+        /// <summary>Position and frame are held, through a bending spring to the clamp's frame.</summary>
+        Clamped,
+
+        /// <summary>Nothing: the rod flies.</summary>
+        Free,
+    }
+
+    /// <summary>What holds the distal end of a material rod.</summary>
+    public enum DistalEnd
+    {
+        /// <summary>Nothing is held.</summary>
+        Free,
+
+        /// <summary>Position and frame are held.</summary>
+        Clamped,
+
+        /// <summary>The frame and the position across an axis are held; along the axis the end is free.</summary>
+        Sliding,
+
+        /// <summary>The last sphere is held, its frame turns freely: a ball joint, as <see
+        /// cref="ProximalEnd.Held"/>.</summary>
+        Held,
+    }
 }

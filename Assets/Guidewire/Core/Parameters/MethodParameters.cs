@@ -62,4 +62,80 @@ namespace Guidewire.Core
         /// <summary>The same values; lists and walls are shared.</summary>
         internal MethodParameters Copy() => (MethodParameters)MemberwiseClone();
     }
+
+    /// <summary>What holds the wire together. The first takes pbd stiffness per iteration, the others a
+    /// material.</summary>
+    public enum Solver
+    {
+        /// <summary>Gauss-Seidel with pbd stiffness (the thesis).</summary>
+        Pbd,
+
+        /// <summary>Gauss-Seidel with compliance, multipliers and substeps (Macklin 2016).</summary>
+        Xpbd,
+
+        /// <summary>Newton's method over the whole rod, block-tridiagonal.</summary>
+        Direct,
+
+        /// <summary>Forces and explicit steps.</summary>
+        Explicit,
+    }
+
+    /// <summary>How positions are predicted.</summary>
+    public enum Integrator
+    {
+        /// <summary>Thesis eq. 2.7, first step by Euler.</summary>
+        Verlet,
+
+        /// <summary>Thesis eqs. 2.5 and 2.6 with the new velocity in the second.</summary>
+        Euler,
+
+        /// <summary>Positions and orientations by Verlet's formula.</summary>
+        OrientationVerlet,
+
+        /// <summary>Positions by Euler, orientations by Verlet's formula.</summary>
+        EulerOrientationVerlet,
+
+        /// <summary>Direct solver, order 1.</summary>
+        ImplicitEuler,
+
+        /// <summary>Direct solver, two-step, order 2.</summary>
+        Bdf2,
+
+        /// <summary>Direct solver, TR-BDF2: L-stable Runge-Kutta with an explicit first stage and 2 implicit ones,
+        /// order 2.</summary>
+        Trbdf2,
+
+        /// <summary>Direct solver, ESDIRK3(2)4L[2]SA: explicit first stage and 3 implicit ones, order 3.</summary>
+        Esdirk3,
+
+        /// <summary>Direct solver, ESDIRK4(3)6L[2]SA: explicit first stage and 5 implicit ones, order 4.</summary>
+        Esdirk4,
+    }
+
+    /// <summary>The order in which one Gauss-Seidel iteration visits the rod elements.</summary>
+    public enum SweepOrder
+    {
+        /// <summary>Elements are swept from sphere 0 to the last.</summary>
+        Naive,
+
+        /// <summary>Alternately from both ends inwards (Kugelstadt and Schoemer 2016, section 5).</summary>
+        Bilateral,
+    }
+
+    /// <summary>Properties of a pbd wire, which has no material and whose mass is given as a whole.</summary>
+    public sealed class PbdParameters
+    {
+        /// <summary>k_A, pbd stiffness of the stretch constraint, dimensionless: at 2 the iteration diverges.</summary>
+        public double StretchStiffness { get; set; } = 0.1;
+
+        /// <summary>k_B, pbd stiffness of the bend-twist constraint in units of length: at l the iteration
+        /// diverges.</summary>
+        public double BendStiffness { get; set; } = 0.1;
+
+        /// <summary>M in mass units, distributed evenly over the spheres (thesis eq. 3.2).</summary>
+        public double TotalMass { get; set; } = 0.01;
+
+        /// <summary>The same values; lists and walls are shared.</summary>
+        internal PbdParameters Copy() => (PbdParameters)MemberwiseClone();
+    }
 }

@@ -144,4 +144,95 @@ namespace Guidewire.Core
         /// <summary>The same values; lists and walls are shared.</summary>
         internal SceneParameters Copy() => (SceneParameters)MemberwiseClone();
     }
+
+    /// <summary>The initial shape of a run with a material.</summary>
+    public enum StartShape
+    {
+        /// <summary>The wire starts straight along z.</summary>
+        Straight,
+
+        /// <summary>A closed circle through sphere 0 in the y-z plane; both ends have one position and one
+        /// frame.</summary>
+        Ring,
+
+        /// <summary>A helix about the z axis.</summary>
+        Helix,
+    }
+
+    /// <summary>How a run with a material starts.</summary>
+    public enum InitialState
+    {
+        /// <summary>The wire starts in its start shape, at rest.</summary>
+        Straight,
+
+        /// <summary>The wire starts in the rest shape under gravity, tip loads and supports, reached from the start
+        /// shape; where that is straight and one end is free, from the shape that the rest curvature alone
+        /// gives.</summary>
+        Equilibrium,
+    }
+
+    /// <summary>An introducer sheath: a straight guide without friction around the wire's proximal part, along the axis
+    /// on which the wire starts.</summary>
+    public sealed class Sheath
+    {
+        /// <summary>Where it ends, units; null: one element inside the vessel's inlet.</summary>
+        public Vector3d? Exit { get; set; }
+
+        /// <summary>The direction in which it leads, of any length; null: along the wire.</summary>
+        public Vector3d? Direction { get; set; }
+    }
+
+    /// <summary>A force of constant direction at a point of the wire.</summary>
+    public readonly struct PointLoad
+    {
+        /// <summary>Makes a force at a point of the wire.</summary>
+        /// <param name="at">Length along the wire at rest from sphere 0, units.</param>
+        /// <param name="force">N.</param>
+        public PointLoad(double at, in Vector3d force)
+        {
+            At = at;
+            Force = force;
+        }
+
+        /// <summary>Length along the wire at rest from sphere 0, units.</summary>
+        public double At { get; }
+
+        /// <summary>The force, N.</summary>
+        public Vector3d Force { get; }
+    }
+
+    /// <summary>A catheter over the wire: an instrument of its own, fed and turned at its own hub, on the wire's axis
+    /// at its start.</summary>
+    public sealed class Catheter
+    {
+        /// <summary>The catheter's length L, units.</summary>
+        public double Length { get; set; }
+
+        /// <summary>The number of its elements n.</summary>
+        public int Elements { get; set; } = 30;
+
+        /// <summary>Distance of its hub ahead of the wire's at the start, units.</summary>
+        public double Start { get; set; }
+
+        /// <summary>Coefficient of friction of its outside with all walls; NaN: those of the walls.</summary>
+        public double FrictionCoefficient { get; set; } = double.NaN;
+
+        /// <summary>Coefficient of friction between the wire and its lumen, along the axis; 0: none.</summary>
+        public double LumenFriction { get; set; }
+
+        /// <summary>Force on its tip, N.</summary>
+        public Vector3d TipForce { get; set; }
+
+        /// <summary>Force per length at rest, N/m.</summary>
+        public Vector3d DistributedForce { get; set; }
+
+        /// <summary>Forces at lengths from its hub, units.</summary>
+        public PointLoad[] PointLoads { get; set; } = Array.Empty<PointLoad>();
+
+        /// <summary>What it is made of; <see cref="MaterialParameters.InnerRadius"/> is that of its lumen.</summary>
+        public MaterialParameters Material { get; set; } = new MaterialParameters();
+
+        /// <summary>What moves its hub; along the wire's axis.</summary>
+        public DriveParameters Drive { get; set; } = new DriveParameters();
+    }
 }

@@ -194,4 +194,76 @@ namespace Guidewire.Io
             }
         }
     }
+
+    /// <summary>Reads the key sheath: an object with an exit and a direction, either of which may be missing.</summary>
+    internal static class SheathReader
+    {
+        /// <summary>Sets the sheath of a scene.</summary>
+        /// <param name="values">Its parameters.</param>
+        /// <param name="sourceOf">Who said what stands at a path.</param>
+        /// <exception cref="ParameterException">An object that is no sheath.</exception>
+        public static void Read(RunParameters values, Func<string, string> sourceOf)
+        {
+            if (values.Sheath == null)
+            {
+                return;
+            }
+            var fields = new JsonFields(sourceOf, "sheath", values.Sheath);
+            if (values.Sheath["lumenFriction"] != null)
+            {
+                // Where nothing bends exp(mu angle) is 1. There are two forces M/a at the exit, a = sqrt(12 d B/M).
+                throw fields.Wrong("lumenFriction", "no value: along a straight sheath nothing presses on its wall, "
+                    + "and at its exit the bent wire presses by a force that follows from the play, which a sheath "
+                    + "does not state");
+            }
+            fields.Allow("exit", "direction");
+            var sheath = new Sheath();
+            if (values.Sheath["exit"] != null)
+            {
+                sheath.Exit = fields.Vector("exit", null);
+            }
+            if (values.Sheath["direction"] != null)
+            {
+                sheath.Direction = fields.Vector("direction", null);
+                if (sheath.Direction.Value.LengthSquared == 0.0)
+                {
+                    throw fields.Wrong("direction", "three numbers [x, y, z], not all 0");
+                }
+            }
+            values.Simulation.Scene.Sheath = sheath;
+        }
+    }
+
+    /// <summary>Reads the key pointLoads: a list of objects with a length along the wire and a force.</summary>
+    internal static class PointLoadReader
+    {
+        private const string Needed = "an object {\"at\" (units), \"force\" [x, y, z] (N)}";
+
+        /// <summary>Sets the loads of a scene.</summary>
+        /// <param name="values">Its parameters.</param>
+        /// <param name="sourceOf">Who said what stands at a path.</param>
+        /// <exception cref="ParameterException">An item that is no load.</exception>
+        public static void Read(RunParameters values, Func<string, string> sourceOf)
+        {
+            if (!(values.PointLoads is JArray items))
+            {
+                return;
+            }
+            var loads = new PointLoad[items.Count];
+            for (int k = 0; k < loads.Length; k++)
+            {
+                string key = "pointLoads[" + k + "]";
+                if (!(items[k] is JObject))
+                {
+                    throw new ParameterException(sourceOf(key), key, items[k].ToString(Formatting.None), Needed);
+                }
+                var fields = new JsonFields(sourceOf, key, items[k]);
+                fields.Allow("at", "force");
+                double at = fields.Number("at", null);
+                loads[k] = new PointLoad(at >= 0.0 ? at : throw fields.Wrong("at", "a number >= 0 (units)"),
+                    fields.Vector("force", null));
+            }
+            values.Simulation.Scene.PointLoads = loads;
+        }
+    }
 }

@@ -1,7 +1,9 @@
 using System;
 using System.Collections.Generic;
+using System.IO;
 using System.Linq;
 using Guidewire.Core;
+using Newtonsoft.Json.Linq;
 
 namespace Guidewire.Io
 {
@@ -129,5 +131,204 @@ namespace Guidewire.Io
 
         private static string Needed(TableColumn[] columns) =>
             string.Join(", ", columns.Select(column => column.Words)) + " with commas between";
+    }
+
+    /// <summary>A column of a CSV file.</summary>
+    internal readonly struct TableColumn
+    {
+        /// <param name="name">In a first line of words.</param>
+        /// <param name="of">What its numbers measure.</param>
+        /// <param name="missing">The number of every row where the file has no such column; null: it needs it.</param>
+        public TableColumn(string name, Dimension of, double? missing = null)
+        {
+            Name = name;
+            Of = of;
+            Missing = missing;
+        }
+
+        /// <summary>The column's name.</summary>
+        public string Name { get; }
+
+        /// <summary>What its numbers measure, in SI without another unit beside the name.</summary>
+        public Dimension Of { get; }
+
+        /// <summary>What counts where the file has no such column; null: it needs it.</summary>
+        public double? Missing { get; }
+
+        /// <summary>The name with the unit that counts where the file states none.</summary>
+        public string Words => Of == Dimension.Number ? Name : Name + " (" + UnitTable.SIUnitOf(Of) + ")";
+    }
+
+    /// <summary>A file that a parameter names.</summary>
+    internal static class NamedFile
+    {
+        /// <summary>Its full name: beside the parameter file that names it, or from the current folder, where the
+        /// command line names it or where it is only there.</summary>
+        /// <param name="file">The name as it was given; an empty one stays empty.</param>
+        /// <param name="source">The parameter file, or what counts instead.</param>
+        public static string Find(string file, string source)
+        {
+            string beside = Path.Combine(Path.GetDirectoryName(source) ?? "", file);
+            bool isBeside = !CommandLineHandler.IsOverride(source) && (IsThere(beside) || !IsThere(file));
+            return file.Length == 0 ? file : Path.GetFullPath(isBeside ? beside : file);
+        }
+
+        private static bool IsThere(string file) => File.Exists(file) || Directory.Exists(file);
+    }
+
+    /// <summary>Reads the file of key driveFile: a CSV file of time in s, insertion in m and rotation in rad.</summary>
+    internal static class DriveTableReader
+    {
+        /// <summary>Sets the table of a drive; the file's name is replaced by the one that was found.</summary>
+        /// <param name="values">Its parameters.</param>
+        /// <param name="source">The parameter file that names the table, or "command line".</param>
+        /// <exception cref="ParameterException">A file that holds no such table.</exception>
+        public static void Read(RunParameters values, string source)
+        {
+            if (values.DriveFile.Length == 0)
+            {
+                return;
+            }
+            values.DriveFile = NamedFile.Find(values.DriveFile, source);
+            string where = source + ": driveFile: ";
+            List<double>[] columns = TableReader.Read(values.DriveFile, where,
+                new TableColumn("time", Dimension.Time), new TableColumn("insertion", Dimension.Length),
+                new TableColumn("rotation", Dimension.Angle));
+            try
+            {
+                double[] times = columns[0].ToArray();
+                values.Simulation.Drive.Table = new DriveTable(new TimeTable(times, columns[1].ToArray()),
+                    new TimeTable(times, columns[2].ToArray()));
+            }
+            catch (ArgumentException error)
+            {
+                throw new ParameterException(where + values.DriveFile + ": " + error.Message);
+            }
+        }
+    }
+
+    /// <summary>Reads the tables of key loadTables: CSV files of two columns, time in s and a factor on the load that
+    /// names the file.</summary>
+    internal static class LoadTableReader
+    {
+        private static readonly Dictionary<string, Action<SceneParameters, TimeTable>> Loads =
+            new Dictionary<string, Action<SceneParameters, TimeTable>>
+            {
+                ["gravity"] = (scene, table) => scene.GravityTable = table,
+                ["tipForce"] = (scene, table) => scene.TipForceTable = table,
+                ["distributedForce"] = (scene, table) => scene.DistributedForceTable = table,
+                ["pointLoads"] = (scene, table) => scene.PointLoadsTable = table,
+                ["axialForce"] = (scene, table) => scene.AxialForceTable = table,
+                ["tipMoment"] = (scene, table) => scene.TipMomentTable = table,
+                ["tipFollowerForce"] = (scene, table) => scene.TipFollowerForceTable = table,
+            };
+
+        /// <summary>Sets the tables of a scene; the files' names are replaced by those that were found.</summary>
+        /// <param name="values">Its parameters.</param>
+        /// <param name="sourceOf">Who said what stands at a path: a parameter file, or "command line".</param>
+        /// <exception cref="ParameterException">A load that has no table, or a file that holds none.</exception>
+        public static void Read(RunParameters values, Func<string, string> sourceOf)
+        {
+            if (!(values.LoadTables is JObject tables))
+            {
+                return;
+            }
+            tables = (JObject)tables.DeepClone();
+            foreach (JProperty property in tables.Properties())
+            {
+                string source = sourceOf("loadTables." + property.Name);
+                if (!Loads.TryGetValue(property.Name, out Action<SceneParameters, TimeTable>? set)
+                    || property.Value.Type != JTokenType.String)
+                {
+                    throw new ParameterException(source, "loadTables", property.ToString(),
+                        "names of CSV files for any of " + string.Join(", ", Loads.Keys));
+                }
+                string file = NamedFile.Find((string)property.Value!, source);
+                set(values.Simulation.Scene, Table(file, source + ": loadTables: " + property.Name + ": "));
+                property.Value = file;
+            }
+            values.LoadTables = tables;
+        }
+
+        /// <summary>What the files hold, for the parameter hash.</summary>
+        public static string Content(JToken? tables)
+        {
+            string text = "";
+            foreach (JProperty property in (tables as JObject)?.Properties() ?? new JObject().Properties())
+            {
+                text += property.Name + "=" + File.ReadAllText((string)property.Value!) + "\n";
+            }
+            return text;
+        }
+
+        private static TimeTable Table(string file, string where)
+        {
+            List<double>[] columns = TableReader.Read(file, where, new TableColumn("time", Dimension.Time),
+                new TableColumn("factor", Dimension.Number));
+            try
+            {
+                return new TimeTable(columns[0].ToArray(), columns[1].ToArray());
+            }
+            catch (ArgumentException error)
+            {
+                throw new ParameterException(where + file + ": " + error.Message);
+            }
+        }
+    }
+
+    /// <summary>Reads the files of keys proximalMotionFile and distalMotionFile: CSV files of time in s, a displacement
+    /// in m and a rotation vector in rad, x, y, z each.</summary>
+    internal static class EndMotionReader
+    {
+        private static readonly TableColumn[] Columns =
+        {
+            new TableColumn("time", Dimension.Time), new TableColumn("x", Dimension.Length),
+            new TableColumn("y", Dimension.Length), new TableColumn("z", Dimension.Length),
+            new TableColumn("rx", Dimension.Angle), new TableColumn("ry", Dimension.Angle),
+            new TableColumn("rz", Dimension.Angle),
+        };
+
+        /// <summary>Sets the motions of a scene; the files' names are replaced by those that were found.</summary>
+        /// <param name="values">Its parameters.</param>
+        /// <param name="sourceOf">Who said what stands at a path.</param>
+        /// <exception cref="ParameterException">A file that holds no such motion.</exception>
+        public static void Read(RunParameters values, Func<string, string> sourceOf)
+        {
+            SceneParameters scene = values.Simulation.Scene;
+            values.ProximalMotionFile = Find("proximalMotionFile", values.ProximalMotionFile, sourceOf,
+                motion => scene.ProximalMotion = motion);
+            values.DistalMotionFile = Find("distalMotionFile", values.DistalMotionFile, sourceOf,
+                motion => scene.DistalMotion = motion);
+        }
+
+        private static string Find(string key, string file, Func<string, string> sourceOf, Action<EndMotion> set)
+        {
+            if (file.Length == 0)
+            {
+                return file;
+            }
+            string found = NamedFile.Find(file, sourceOf(key));
+            string where = sourceOf(key) + ": " + key + ": ";
+            List<double>[] columns = TableReader.Read(found, where, Columns);
+            try
+            {
+                set(new EndMotion(columns[0].ToArray(), Vectors(columns, 1), Vectors(columns, 4)));
+            }
+            catch (ArgumentException error)
+            {
+                throw new ParameterException(where + found + ": " + error.Message);
+            }
+            return found;
+        }
+
+        private static Vector3d[] Vectors(List<double>[] columns, int first)
+        {
+            var vectors = new Vector3d[columns[0].Count];
+            for (int i = 0; i < vectors.Length; i++)
+            {
+                vectors[i] = new Vector3d(columns[first][i], columns[first + 1][i], columns[first + 2][i]);
+            }
+            return vectors;
+        }
     }
 }

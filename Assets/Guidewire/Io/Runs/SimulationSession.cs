@@ -3,6 +3,8 @@ using System.Collections.Generic;
 using System.Diagnostics;
 using System.Globalization;
 using System.Linq;
+using System.Security.Cryptography;
+using System.Text;
 using System.Threading;
 using Guidewire.Core;
 using Newtonsoft.Json.Linq;
@@ -427,6 +429,142 @@ namespace Guidewire.Io
                 _isNoted = true;
                 _results.Note(what + " from step " + Simulation.StepCount + " on");
             }
+        }
+    }
+
+    /// <summary>Bytes of a session's state: a line that says of what they are and whether they are whole, and the
+    /// numbers that a run goes on from.</summary>
+    internal static class SessionSnapshot
+    {
+        private const string Magic = "guidewire-snapshot";
+        private const int LongestHead = 256;       // bytes of the line
+
+        /// <summary>Gives the bytes of a state.</summary>
+        /// <param name="numbers">All that the next steps depend on.</param>
+        /// <param name="hash">Of the parameters.</param>
+        /// <param name="isSteered">Whether a user moves the hubs.</param>
+        public static byte[] Of(byte[] numbers, string hash, bool isSteered)
+        {
+            byte[] head = Encoding.ASCII.GetBytes(Head(numbers, hash, isSteered));
+            var saved = new byte[head.Length + numbers.Length];
+            head.CopyTo(saved, 0);
+            numbers.CopyTo(saved, head.Length);
+            return saved;
+        }
+
+        /// <summary>Gives the numbers of such bytes, for a session with these parameters.</summary>
+        /// <param name="isOfThisBuild">Whether this build of the program has saved them.</param>
+        /// <exception cref="ParameterException">They are of other parameters, of another format, or not
+        /// whole.</exception>
+        public static byte[] NumbersOf(byte[] saved, string hash, bool isSteered, out bool isOfThisBuild)
+        {
+            int end = Array.IndexOf(saved, (byte)'\n', 0, Math.Min(saved.Length, LongestHead)) + 1;
+            var numbers = new byte[saved.Length - end];
+            Array.Copy(saved, end, numbers, 0, numbers.Length);
+            string[] head = Encoding.ASCII.GetString(saved, 0, end).Split(' ');
+            string[] here = Head(numbers, hash, isSteered).Split(' ');
+            if (head.Length == here.Length - 1)
+            {
+                head = head.Take(1).Append("1").Concat(head.Skip(1)).ToArray();    // version 1 did not always state it
+            }
+            if (head.Length == here.Length && head[0] == Magic && int.TryParse(head[1], NumberStyles.None,
+                    CultureInfo.InvariantCulture, out int format) && format != FileFormat.Version)
+            {
+                throw new ParameterException("the snapshot has format " + format + ": guidewire "
+                    + ProgramVersion.Number + " reads format " + FileFormat.Version + ": save it anew");
+            }
+            // Of another build the parameters may have had fewer keys: their hash says nothing then.
+            isOfThisBuild = head.Length == here.Length && head[3] == here[3];
+            if (head.Length != here.Length || head[0] != Magic || (isOfThisBuild && head[2] != here[2])
+                || head[4] != here[4] || head[5] != here[5])
+            {
+                throw new ParameterException("the snapshot was not saved by a session with these parameters, "
+                    + "or is incomplete");
+            }
+            return numbers;
+        }
+
+        // What a snapshot must agree in with who reads it, and a sum that says whether it is whole.
+        private static string Head(byte[] numbers, string hash, bool isSteered)
+        {
+            using SHA256 sha = SHA256.Create();
+            string sum = BitConverter.ToString(sha.ComputeHash(numbers), 0, 8).Replace("-", "");
+            string holds = isSteered ? "hand" : "drive";
+            return string.Join(" ", Magic, FileFormat.Version, hash, RunSummary.CoreBuild, holds, sum) + "\n";
+        }
+    }
+
+    /// <summary>The force beyond which a hub slips in the hand, where the parameters state none: the push at which the
+    /// instrument, coiled up in its lumen, is strained by what it bears without yielding.</summary>
+    /// <remarks>A shaft of bending stiffness EI under a thrust F lies as a helix on the wall of a lumen whose clearance
+    /// from its axis is r, with the pitch p = 2 pi sqrt(2 EI/F) (Lubinski, Althouse and Logan 1962, J Petrol Technol
+    /// 14:655). Its curvature r (2 pi/p)^2 = F r/(2 EI) strains the outer fibre, at the radius a, by F r a/(2 EI).
+    /// Nitinol and steel of instruments bear about <see cref="Elastic"/>.</remarks>
+    internal static class HandLimit
+    {
+        private const double Elastic = 0.01;    // strain
+
+        // Of an element of a pbd wire, which has no force: half of that which loses a run where it stays. A wire that
+        // is pushed freely through an arch has 0.04.
+        private const double Slip = 0.1;
+
+        /// <summary>A hand, whose pbd wire slips before it is lost if it is limited.</summary>
+        public static Steering Hand(bool isLimited) =>
+            new Steering { SlipStrain = isLimited ? Slip : double.PositiveInfinity };
+
+        /// <summary>Sets the hubForceLimit of each hub that has none, where the method takes one.</summary>
+        public static void Set(SimulationParameters parameters)
+        {
+            SceneParameters scene = parameters.Scene;
+            if (!MethodTable.Of(parameters.Method.Solver).TakesMaterial || scene.Walls.Length == 0
+                || !ParameterTable.Find("hubForceLimit")!.IsTakenBy(parameters.Method.Solver))
+            {
+                return;
+            }
+            double clearance = Clearance(parameters) * scene.MetresPerUnit;
+            if (clearance == 0.0)
+            {
+                return;
+            }
+            parameters.Drive.HubForceLimit = Limit(parameters.Drive, parameters.Material, clearance);
+            foreach (Catheter catheter in scene.Catheters)
+            {
+                catheter.Drive.HubForceLimit = Limit(catheter.Drive, catheter.Material, clearance);
+            }
+        }
+
+        private static double Limit(DriveParameters drive, MaterialParameters material, double clearance)
+        {
+            double stiffness = material.YoungsModulus * material.SecondMomentOfArea;
+            return !double.IsNaN(drive.HubForceLimit) ? drive.HubForceLimit
+                : Math.Min(HubLimit.Grip, 2.0 * stiffness * Elastic / (clearance * material.WireRadius));
+        }
+
+        // The widest place of the lumen in which the straight wire lies at the start, units: there it buckles first.
+        private static double Clearance(SimulationParameters parameters)
+        {
+            SceneParameters scene = parameters.Scene;
+            double widest = 0.0;
+            for (int i = 0; i <= scene.NumberRodElements; i++)
+            {
+                var node = new Vector3d(0.0, 0.0,
+                    scene.GuidewireOffset + scene.GuidewireLength * i / scene.NumberRodElements);
+                double least = double.PositiveInfinity;
+                foreach (ContactShape wall in scene.Walls)
+                {
+                    int hint = -1;
+                    if (!wall.Contains(node))
+                    {
+                        least = 0.0;
+                    }
+                    else if (wall.Nearest(node, node, double.PositiveInfinity, ref hint, out SurfaceContact contact))
+                    {
+                        least = Math.Min(least, contact.Distance);
+                    }
+                }
+                widest = double.IsInfinity(least) ? widest : Math.Max(widest, least);
+            }
+            return widest;
         }
     }
 }

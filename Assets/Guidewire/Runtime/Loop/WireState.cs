@@ -270,4 +270,68 @@ namespace Guidewire.Runtime
             }
         }
     }
+
+    /// <summary>A hub after a step, in SI units.</summary>
+    public struct HubState
+    {
+        /// <summary>How far it has gone since the start, m.</summary>
+        public double Insertion;
+
+        /// <summary>How far it has turned since the start, rad.</summary>
+        public double Turn;
+
+        /// <summary>Its force on its instrument along its axis, N, a thrust positive.</summary>
+        public double Force;
+
+        /// <summary>Its torque on its instrument about its axis, N m.</summary>
+        public double Torque;
+
+        /// <summary>Displacement that was asked of it and not made, m.</summary>
+        public double Shortfall;
+    }
+
+    /// <summary>A catheter after a step.</summary>
+    public sealed class CatheterState
+    {
+        internal CatheterState(int elements)
+        {
+            Positions = new Vector3d[elements + 1];
+            Orientations = new Quaterniond[elements];
+        }
+
+        /// <summary>Its n + 1 nodes, units.</summary>
+        public Vector3d[] Positions { get; }
+
+        /// <summary>The orientations of its n elements.</summary>
+        public Quaterniond[] Orientations { get; }
+
+        /// <summary>The state of its hub.</summary>
+        public HubState Hub { get; internal set; }
+
+        /// <summary>Length over which the next instrument is in it, m.</summary>
+        public double Overlap { get; internal set; }
+
+        internal void CopyFrom(CoaxialRecord record)
+        {
+            Array.Copy(record.Positions, Positions, Positions.Length);
+            Array.Copy(record.Orientations, Orientations, Orientations.Length);
+            Overlap = record.Overlap;
+            Hub = new HubState
+            {
+                Insertion = record.Insertion,
+                Turn = record.Turn,
+                Force = record.Force,
+                Torque = record.Torque,
+                Shortfall = record.Shortfall,
+            };
+        }
+
+        internal void Interpolate(CatheterState older, CatheterState newer, double t)
+        {
+            WireState.Interpolate(older.Positions, newer.Positions, t, Positions);
+            WireState.Interpolate(older.Orientations, newer.Orientations, t, Orientations);
+            Overlap = newer.Overlap;
+            Hub = newer.Hub;
+        }
+    }
 }

@@ -127,4 +127,14 @@ namespace Guidewire.Core
         private static double Determinant(in Vector3d a, in Vector3d b, in Vector3d c) =>
             Vector3d.Dot(a, Vector3d.Cross(b, c));
     }
+
+    /// <summary>A mesh that cannot be a vessel. The message is one line and names what is wrong, by count.</summary>
+    public sealed class MeshException : Exception
+    {
+        /// <summary>Makes the exception with this line.</summary>
+        public MeshException(string message)
+            : base(message)
+        {
+        }
+    }
 }

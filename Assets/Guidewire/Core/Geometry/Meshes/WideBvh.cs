@@ -8,6 +8,15 @@ using System.Runtime.Intrinsics.X86;
 
 namespace Guidewire.Core
 {
+    /// <summary>A test by which a search leaves out children of a <see cref="WideBvh"/>, eight at a time.</summary>
+    internal interface IBoundsTest
+    {
+        /// <summary>Which of eight children may hold what is sought, one bit each.</summary>
+        /// <param name="bounds">The first of the numbers of their common node: centre, extent, normal, low, high, of
+        /// each eight.</param>
+        uint MayHold(ref float bounds);
+    }
+
     /// <summary>The hierarchy of a <see cref="Bvh"/> with eight children a node, whose boxes and slabs are tested at
     /// once, in single precision: of three levels of the binary tree two are left out.</summary>
     /// <remarks>Leaves are met in the order of the binary tree. Of two slabs, one within the other's triangles, neither
@@ -160,6 +169,152 @@ namespace Guidewire.Core
             lane[field * Lanes] = (float)value.X;
             lane[(field + 1) * Lanes] = (float)value.Y;
             lane[(field + 2) * Lanes] = (float)value.Z;
+        }
+    }
+
+    /// <summary><see cref="SegmentSearch.MayHold"/> for eight children of a node at once, with a range that makes up
+    /// for rounding.</summary>
+    internal readonly struct SegmentBoundsTest : IBoundsTest
+    {
+        private const double OfSquare = 1.0 + 1e-6;    // the rounding of a sum of three squares
+        private readonly float _middleX;
+        private readonly float _middleY;
+        private readonly float _middleZ;
+        private readonly float _halfX;
+        private readonly float _halfY;
+        private readonly float _halfZ;
+        private readonly float _squared;
+
+        /// <summary>Tests for what is within a range of segment a b, units.</summary>
+        public SegmentBoundsTest(in Vector3d a, in Vector3d b, double range, WideBvh tree)
+        {
+            Vector3d half = 0.5 * (b - a);
+            Vector3d middle = 0.5 * (a + b) - tree.Origin;
+            range += tree.Slack(WideBvh.LengthBound(middle) + WideBvh.LengthBound(half));
+            _middleX = (float)middle.X;
+            _middleY = (float)middle.Y;
+            _middleZ = (float)middle.Z;
+            _halfX = (float)half.X;
+            _halfY = (float)half.Y;
+            _halfZ = (float)half.Z;
+            _squared = (float)(OfSquare * range * range);
+        }
+
+        /// <inheritdoc/>
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        public uint MayHold(ref float bounds)
+        {
+            Vector256<float> zero = Vector256<float>.Zero;
+            Vector256<float> middleX = Vector256.Create(_middleX);
+            Vector256<float> middleY = Vector256.Create(_middleY);
+            Vector256<float> middleZ = Vector256.Create(_middleZ);
+            Vector256<float> halfX = Vector256.Create(_halfX);
+            Vector256<float> halfY = Vector256.Create(_halfY);
+            Vector256<float> halfZ = Vector256.Create(_halfZ);
+            Vector256<float> gapX = Avx.Max(zero, Vector256.Abs(middleX - Bounds(ref bounds, 0))
+                - (Bounds(ref bounds, 3) + Vector256.Abs(halfX)));
+            Vector256<float> gapY = Avx.Max(zero, Vector256.Abs(middleY - Bounds(ref bounds, 1))
+                - (Bounds(ref bounds, 4) + Vector256.Abs(halfY)));
+            Vector256<float> gapZ = Avx.Max(zero, Vector256.Abs(middleZ - Bounds(ref bounds, 2))
+                - (Bounds(ref bounds, 5) + Vector256.Abs(halfZ)));
+            Vector256<float> normalX = Bounds(ref bounds, 6);
+            Vector256<float> normalY = Bounds(ref bounds, 7);
+            Vector256<float> normalZ = Bounds(ref bounds, 8);
+            Vector256<float> middle = normalX * middleX + normalY * middleY + normalZ * middleZ;
+            Vector256<float> half = Vector256.Abs(normalX * halfX + normalY * halfY + normalZ * halfZ);
+            Vector256<float> slab = Avx.Max(zero, Avx.Max(
+                middle - Bounds(ref bounds, 10), Bounds(ref bounds, 9) - middle) - half);
+            Vector256<float> least = Avx.Max(gapX * gapX + gapY * gapY + gapZ * gapZ, slab * slab);
+            return (uint)Avx.MoveMask(Vector256.LessThan(least, Vector256.Create(_squared)));
+        }
+
+        /// <summary>Gives a field of eight children.</summary>
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        public static Vector256<float> Bounds(ref float bounds, int field) =>
+            Vector256.LoadUnsafe(ref Unsafe.Add(ref bounds, 8 * field));
+    }
+
+    /// <summary><see cref="SweptSegment.MayMeet"/> for eight children of a node at once, and by the segment where it
+    /// starts <see cref="SegmentSearch.MayHold"/>, with distances that make up for rounding.</summary>
+    internal readonly struct SweptBoundsTest : IBoundsTest
+    {
+        private readonly SegmentBoundsTest _start;
+        private readonly Point _a0;
+        private readonly Point _b0;
+        private readonly Point _a1;
+        private readonly Point _b1;
+        private readonly Point _centre;
+        private readonly Point _extent;
+        private readonly float _border;
+
+        /// <summary>Tests for what a moving segment may come near to.</summary>
+        public SweptBoundsTest(in SweptSegment swept, WideBvh tree)
+        {
+            _start = new SegmentBoundsTest(swept.A0, swept.B0, swept.Range, tree);
+            _a0 = new Point(swept.A0 - tree.Origin);
+            _b0 = new Point(swept.B0 - tree.Origin);
+            _a1 = new Point(swept.A1 - tree.Origin);
+            _b1 = new Point(swept.B1 - tree.Origin);
+            Vector3d centre = swept.Centre - tree.Origin;
+            double slack = tree.Slack(WideBvh.LengthBound(centre) + WideBvh.LengthBound(swept.Extent));
+            _centre = new Point(centre);
+            _extent = new Point(swept.Extent + new Vector3d(slack, slack, slack));
+            _border = (float)(swept.Border + slack);
+        }
+
+        /// <inheritdoc/>
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        public uint MayHold(ref float bounds)
+        {
+            Vector256<float> overlaps =
+                Overlaps(ref bounds, 0, _centre.X, _extent.X) & Overlaps(ref bounds, 1, _centre.Y, _extent.Y)
+                & Overlaps(ref bounds, 2, _centre.Z, _extent.Z);
+            uint hits = (uint)Avx.MoveMask(overlaps);
+            return hits == 0 ? 0 : hits & _start.MayHold(ref bounds) & ~IsInRange(ref bounds);
+        }
+
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        private uint IsInRange(ref float bounds)
+        {
+            Vector256<float> w = Height(ref bounds, _a0);
+            Vector256<float> x = Height(ref bounds, _b0);
+            Vector256<float> y = Height(ref bounds, _a1);
+            Vector256<float> z = Height(ref bounds, _b1);
+            Vector256<float> border = Vector256.Create(_border);
+            Vector256<float> least = Avx.Min(Avx.Min(w, x), Avx.Min(y, z));
+            Vector256<float> most = Avx.Max(Avx.Max(w, x), Avx.Max(y, z));
+            return (uint)Avx.MoveMask(Vector256.GreaterThan(least, SegmentBoundsTest.Bounds(ref bounds, 10) + border)
+                | Vector256.LessThan(most, SegmentBoundsTest.Bounds(ref bounds, 9) - border));
+        }
+
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        private static Vector256<float> Overlaps(ref float bounds, int axis, float centre, float extent)
+        {
+            return Vector256.LessThanOrEqual(
+                Vector256.Abs(Vector256.Create(centre) - SegmentBoundsTest.Bounds(ref bounds, axis)),
+                Vector256.Create(extent) + SegmentBoundsTest.Bounds(ref bounds, axis + 3));
+        }
+
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        private static Vector256<float> Height(ref float bounds, in Point x)
+        {
+            return SegmentBoundsTest.Bounds(ref bounds, 6) * Vector256.Create(x.X)
+                + SegmentBoundsTest.Bounds(ref bounds, 7) * Vector256.Create(x.Y)
+                + SegmentBoundsTest.Bounds(ref bounds, 8) * Vector256.Create(x.Z);
+        }
+
+        private readonly struct Point
+        {
+            public readonly float X;
+            public readonly float Y;
+            public readonly float Z;
+
+            public Point(in Vector3d x)
+            {
+                X = (float)x.X;
+                Y = (float)x.Y;
+                Z = (float)x.Z;
+            }
         }
     }
 }

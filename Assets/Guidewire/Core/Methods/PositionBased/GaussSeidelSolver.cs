@@ -1,5 +1,16 @@
 namespace Guidewire.Core
 {
+    /// <summary>Corrects a predicted state towards its constraints.</summary>
+    internal interface IConstraintSolver
+    {
+        /// <summary>Corrects <see cref="RodState.PredictedPositions"/> and
+        /// <see cref="RodState.PredictedOrientations"/> in place.</summary>
+        void Solve(RodState state);
+
+        /// <summary>Writes into a snapshot, or restores from one, its state between steps.</summary>
+        void Serialize(Snapshot snapshot);
+    }
+
     /// <summary>Position-and-orientation-based dynamics (thesis 2.1.2): m iterations, each all stretch constraints,
     /// then all bend-twist constraints, then all contacts. The answer depends on m, because pbd stiffness acts per
     /// iteration.</summary>

@@ -156,4 +156,105 @@ namespace Guidewire.Core
             return null;
         }
     }
+
+    /// <summary>Compares the largest strain of one window of steps with that of the window before.</summary>
+    internal sealed class StrainMonitor
+    {
+        private readonly int _length;
+        private int _step;
+        private double _largest;
+        private double _previousLargest = double.PositiveInfinity;
+
+        /// <param name="length">Steps in a window.</param>
+        public StrainMonitor(int length)
+        {
+            _length = length;
+        }
+
+        /// <summary>The largest strain of the window that ended last, dimensionless.</summary>
+        public double Largest { get; private set; }
+
+        /// <summary>Writes into a snapshot, or restores from one, the windows so far.</summary>
+        public void Serialize(Snapshot snapshot)
+        {
+            Largest = snapshot.Serialize(Largest);
+            snapshot.Serialize(ref _step);
+            snapshot.Serialize(ref _largest);
+            snapshot.Serialize(ref _previousLargest);
+        }
+
+        /// <summary>Takes one step's largest strain; true at the end of a window that, like the one before, went above
+        /// the limit, and in which the largest strain has not fallen.</summary>
+        /// <param name="strain">|length/l - 1| of the worst element.</param>
+        /// <param name="limit">What counts as wrong in length.</param>
+        public bool HasNotFallen(double strain, double limit)
+        {
+            _largest = Math.Max(_largest, strain);
+            if (++_step < _length)
+            {
+                return false;
+            }
+            Largest = _largest;
+            bool notFallen = _largest > limit && _previousLargest > limit && _largest >= _previousLargest;
+            _previousLargest = _largest;
+            _largest = 0.0;
+            _step = 0;
+            return notFallen;
+        }
+    }
+
+    /// <summary>Detects a joint of a pbd wire that has rotated beyond half a turn: it then unwinds in the other
+    /// direction, and
+    /// the wire has lost a turn.</summary>
+    /// <remarks>What a joint is given back goes as the sine of its angle: the most at a quarter of a turn, nothing at
+    /// half of one. Orientations follow the double cover of the rotations, so that Re(q_j* q_{j+1}) = cos(angle/2)
+    /// changes its sign there and stays so until another turn is lost.</remarks>
+    internal sealed class TurnMonitor
+    {
+        private readonly bool[] _wasBeyond;    // per joint, of the wire as it started
+        private int _joint = -1;
+        private int _step;
+
+        /// <param name="state">The wire as it starts.</param>
+        public TurnMonitor(RodState state)
+        {
+            _wasBeyond = new bool[state.ElementCount - 1];
+            for (int j = 0; j < _wasBeyond.Length; j++)
+            {
+                _wasBeyond[j] = IsBeyond(state, j);
+            }
+        }
+
+        /// <summary>The first joint that lost a turn, and when; or null.</summary>
+        public RunWarning? Warning => _joint < 0 ? (RunWarning?)null : WarningTable.LostTurn.With(_joint, _step);
+
+        /// <summary>Takes the wire after a step.</summary>
+        /// <param name="state">The wire.</param>
+        /// <param name="step">Number of the step, from 1.</param>
+        public void Update(RodState state, int step)
+        {
+            for (int j = 0; _joint < 0 && j < _wasBeyond.Length; j++)
+            {
+                if (IsBeyond(state, j) != _wasBeyond[j])
+                {
+                    _joint = j;
+                    _step = step;
+                }
+            }
+        }
+
+        /// <summary>Writes into a snapshot, or restores from one, what has been seen so far.</summary>
+        public void Serialize(Snapshot snapshot)
+        {
+            snapshot.Serialize(ref _joint);
+            snapshot.Serialize(ref _step);
+        }
+
+        private static bool IsBeyond(RodState state, int joint)
+        {
+            Quaterniond a = state.Orientations[joint];
+            Quaterniond b = state.Orientations[joint + 1];
+            return a.X * b.X + a.Y * b.Y + a.Z * b.Z + a.W * b.W < 0.0;
+        }
+    }
 }

@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 using Guidewire.Core;
 using Newtonsoft.Json.Linq;
 
@@ -41,5 +42,37 @@ namespace Guidewire.Io
 
         public static ValueEntry<T> Of<T>(Kind<T> kind, string key, string help) =>
             new ValueEntry<T>(key, "", kind, help);
+    }
+
+    /// <summary>The methods that take a key.</summary>
+    internal static class Takers
+    {
+        /// <summary>Every method.</summary>
+        public static IReadOnlyList<Solver> All { get; } = Where(method => true);
+
+        /// <summary>Those whose wire has a stiffness per iteration.</summary>
+        public static IReadOnlyList<Solver> Pbd { get; } = Where(method => !method.TakesMaterial);
+
+        /// <summary>Those whose wire is a material.</summary>
+        public static IReadOnlyList<Solver> Material { get; } = Where(method => method.TakesMaterial);
+
+        /// <summary>Those that meet walls.</summary>
+        public static IReadOnlyList<Solver> Walls { get; } = Where(method => method.MeetsWalls);
+
+        /// <summary>Gives these methods.</summary>
+        public static IReadOnlyList<Solver> Only(params Solver[] methods) => methods;
+
+        private static List<Solver> Where(Predicate<MethodTraits> takes)
+        {
+            var methods = new List<Solver>();
+            foreach (MethodTraits method in MethodTable.All)
+            {
+                if (takes(method))
+                {
+                    methods.Add(method.Solver);
+                }
+            }
+            return methods;
+        }
     }
 }

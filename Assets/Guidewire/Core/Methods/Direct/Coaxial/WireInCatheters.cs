@@ -201,4 +201,188 @@ namespace Guidewire.Core
             _errors.Serialize(snapshot);
         }
     }
+
+    /// <summary>Results of the catheters around a wire, the outermost one first, and the forces of all hubs.</summary>
+    internal sealed class CatheterRecords
+    {
+        private readonly CoaxialRecord[] _records;
+        private readonly MaterialDrive[] _drives;      // of the outermost catheter first, of the wire last
+        private readonly Vector3d _axis;
+        private readonly double[] _forces;             // of the hubs without friction, N
+
+        /// <summary>Of the catheters of a setup.</summary>
+        public CatheterRecords(CoaxialSetup setup, MaterialDrive[] drives)
+        {
+            _records = setup.Records();
+            _drives = drives;
+            _axis = setup.Axis;
+            _forces = new double[drives.Length];
+            HasFriction = Array.Exists(_records, record => record.FrictionCoefficient > 0.0);
+        }
+
+        /// <summary>Whether a lumen has friction.</summary>
+        public bool HasFriction { get; }
+
+        /// <summary>The records of all catheters.</summary>
+        public CoaxialRecord[] All => _records;
+
+        /// <summary>A step begins, for which the hubs' drives have been prepared.</summary>
+        public void BeginStep()
+        {
+            foreach (CoaxialRecord record in _records)
+            {
+                record.TakeStep(_drives);
+            }
+        }
+
+        /// <summary>Takes a moment, at the time that was set last.</summary>
+        /// <param name="instruments">The outermost one first.</param>
+        public CoaxialRecord Record(RodDynamics dynamics, CoaxialJoints joints, InnerInstrument[] instruments)
+        {
+            RodTerms terms = dynamics.Terms;
+            RodShape shape = dynamics.Shape;
+            CoaxialBendTwist bending = terms.CoaxialBending!;
+            int wire = _records.Length;
+            // The outermost hub has the chain's reaction less those of the others.
+            _forces[0] = Vector3d.Dot(dynamics.ReactionAt(0), _axis);
+            double torque = Vector3d.Dot(bending.ProximalCouple(shape), _axis);
+            double wireTorque = bending.InnerTorque(shape, wire);
+            double inside = 0.0;
+            for (int i = wire; i > 0; i--)
+            {
+                _forces[i] = terms.Release!.InnerForce(shape, terms, i);
+                _forces[0] -= _forces[i];
+                double own = bending.InnerTorque(shape, i);
+                torque -= own;
+                if (i < wire)
+                {
+                    _records[i].Record(joints, terms, shape, instruments[i].Shape, _drives[i], _drives[wire], own,
+                        wireTorque, inside);
+                }
+                inside += _forces[i];
+            }
+            _forces[0] += terms.SheathForce(shape);
+            _records[0].Record(joints, terms, shape, instruments[0].Shape, _drives[0], _drives[wire], torque,
+                wireTorque, inside);
+            double around = 0.0;
+            double wireForce = _forces[wire] + _records[wire - 1].FrictionForce;
+            for (int i = 0; i < wire; i++)
+            {
+                _records[i].TakeMotion(instruments[i].Velocities, instruments[i].Spins);
+                _records[i].TakeForces(_forces[i], around, wireForce);
+                around = _records[i].FrictionForce;
+            }
+            return _records[0];
+        }
+
+        /// <summary>Takes what is left between the instruments.</summary>
+        public void TakePlay(CoaxialJoints joints, RodShape shape)
+        {
+            foreach (CoaxialRecord record in _records)
+            {
+                record.TakePlay(joints, shape);
+            }
+        }
+
+        /// <summary>Writes or restores all of it.</summary>
+        public void Serialize(Snapshot snapshot)
+        {
+            foreach (CoaxialRecord record in _records)
+            {
+                record.Serialize(snapshot);
+            }
+        }
+    }
+
+    /// <summary>Strains, forces and couples of a wire among coaxial instruments, at its own joints and
+    /// elements.</summary>
+    /// <remarks>Its curvature is that of the shared centreline, linear between the joints of the chain, about the
+    /// wire's own axes; its twist is its own. Couples follow by its own stiffness. Along the axis it has its own loads,
+    /// and of what else is there (walls, inertia) the part of its EA in that of all; of the shear force that of its GA.
+    /// In a sheath it is straight, and behind the outermost hub, where it has the force of its hub. That alone has
+    /// friction in a lumen, and what bending in one another makes of a force along the axis.</remarks>
+    internal sealed class WireStress
+    {
+        private readonly CoaxialInstrument _own;
+        private readonly InnerInstrument _wire;
+        private readonly Joint[] _joints;       // as if it were alone
+        private readonly double[] _lengths;     // of wire that each stands for, m
+        private readonly StressRecord _record;
+
+        /// <summary>Makes one of the innermost instrument.</summary>
+        /// <param name="wire">Where it is.</param>
+        public WireStress(CoaxialSetup setup, InnerInstrument wire)
+        {
+            _wire = wire;
+            _own = setup.Instruments[setup.Instruments.Length - 1];
+            _joints = wire.Joints;
+            _lengths = _own.Rod.JointLengths(InnerInstrument.Supports);
+            _record = new StressRecord(_lengths);
+        }
+
+        /// <summary>The record at the time that was set last; the next call writes it anew.</summary>
+        /// <param name="thrust">Of the wire's hub, N.</param>
+        public StressRecord Record(RodDynamics dynamics, CoaxialJoints joints, double thrust)
+        {
+            CoaxialBendTwist bending = dynamics.Terms.CoaxialBending!;
+            int wire = joints.InnerCount;
+            double lead = joints.LeadOf(wire);
+            int n = _own.Rod.ElementCount;
+            int j = 0;
+            for (int k = 0; k <= n; k++)
+            {
+                double at = _own.Stations[k] - lead;
+                j = CoaxialShape.ElementAt(joints, at, j);
+                Vector3d curvature = k == n ? Vector3d.Zero
+                    : at < joints.Stations[0] ? CoaxialShape.LeadTwist(dynamics.Shape, bending, wire)
+                    : Curvature(dynamics.Shape, bending, j, at);
+                curvature = at < joints.Sheathed ? curvature.Z * Vector3d.UnitZ : curvature;
+                Joint joint = _joints[k];
+                Vector3d couple = _lengths[k] * curvature - joint.Rest;
+                couple = new Vector3d(joint.Bend1 * couple.X, joint.Bend2 * couple.Y, joint.Twist * couple.Z)
+                    + (_own.Rod.Fibres?.CoupleAt(k, curvature, at < joints.Sheathed) ?? Vector3d.Zero);
+                _record.Curvature[k] = curvature;
+                _record.Couple[k] = k == n ? Vector3d.Zero : Quaterniond.Rotate(_wire.Shape.Q[k], couple);
+                if (k < n)
+                {
+                    TakeElement(dynamics, joints, k, at + 0.5 * _own.Rod.Length[k], j, thrust);
+                }
+            }
+            return _record;
+        }
+
+        // Rad/m, at a place along the chain in element j.
+        private static Vector3d Curvature(RodShape shape, CoaxialBendTwist bending, int j, double at)
+        {
+            CoaxialJoints joints = bending.Joints;
+            Vector3d before = CoaxialShape.CurvatureOf(shape, bending, j, joints.InnerCount);
+            if (j + 1 >= joints.ElementCount)
+            {
+                return before;
+            }
+            double fraction = (at - joints.Stations[j]) / (joints.Stations[j + 1] - joints.Stations[j]);
+            return Vector3d.Lerp(before, CoaxialShape.CurvatureOf(shape, bending, j + 1, joints.InnerCount), fraction);
+        }
+
+        private void TakeElement(RodDynamics dynamics, CoaxialJoints joints, int element, double at, int j,
+            double thrust)
+        {
+            MaterialRod rod = _own.Rod;
+            Vector3d strain = new Vector3d(0.0, 0.0, -thrust / rod.StretchStiffness[element]);
+            if (at >= joints.Stations[0])
+            {
+                RodShape shape = dynamics.Shape;
+                j = CoaxialShape.ElementAt(joints, at, j);
+                Vector3d force = dynamics.Terms.Stretch.Stress(shape, j, out Vector3d p);
+                Quaterniond turn = _wire.Shape.Q[element].Conjugate * shape.Q[j];
+                Vector3d shear = Quaterniond.Rotate(turn, new Vector3d(p.X, p.Y, 0.0));
+                strain = new Vector3d(shear.X, shear.Y,
+                    dynamics.Terms.Supports.Coaxial!.Axial.StrainOf(joints.InnerCount, j, force.Z));
+            }
+            _record.Strain[element] = strain;
+            _record.Force[element] = Quaterniond.Rotate(_wire.Shape.Q[element], new Vector3d(
+                rod.ShearStiffness[element] * strain.X, rod.ShearStiffness[element] * strain.Y,
+                rod.StretchStiffness[element] * strain.Z));
+        }
+    }
 }
