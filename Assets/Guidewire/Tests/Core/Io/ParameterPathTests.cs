@@ -67,7 +67,8 @@ namespace Guidewire.Core.Tests
         }
 
         [TestCase("vesel.radius", "3", "unknown key 'vesel.radius': did you mean 'vessel.radius'?")]
-        [TestCase("vessel.colour", "3", "unknown key 'vessel.colour': allowed are shape, frictionCoefficient, motion, knots")]
+        [TestCase("vessel.colour", "3",
+            "unknown key 'vessel.colour': allowed are shape, frictionCoefficient, motion, knots")]
         [TestCase("vessel.frictionCoefficient", "-1", "vessel.frictionCoefficient = -1 is not allowed: needs a number")]
         [TestCase("vessel.radius[0]", "3", "vessel.radius[0] does not exist: vessel.radius is one value without parts")]
         [TestCase("obstacles[3].radius", "3", "obstacles is a list of 1, obstacles[0]")]
