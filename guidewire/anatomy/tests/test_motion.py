@@ -43,8 +43,8 @@ def test_the_map_is_that_of_the_runner(live, scene, tmp_path):
     moved = read_columns(run.folder, ["vesselDisplacement", "vesselPhase"], log.steps)
     motion = motion_of(run.parameters)
     largest = 0.0
-    for time, tip, own, phase in zip(log.time, log.positions[:, -1], moved["vesselDisplacement"],
-                                     moved["vesselPhase"]):
+    for time, tip, own, phase in zip(log.time[::5], log.positions[::5, -1], moved["vesselDisplacement"][::5],
+                                     moved["vesselPhase"][::5]):
         motion.set_time(time)
         rest, slope = motion.at_rest(tip[None])
         np.testing.assert_allclose(own, tip - rest[0], atol=1e-9)

@@ -76,4 +76,38 @@ namespace Guidewire.Core
         /// <summary>The warning stands at the end of the run, on a line of its own.</summary>
         End,
     }
+
+    /// <summary>A warning of one run.</summary>
+    internal readonly struct RunWarning
+    {
+        /// <param name="text">Its line.</param>
+        public RunWarning(WarningKind kind, string text)
+        {
+            Kind = kind;
+            Text = text;
+        }
+
+        /// <summary>What it warns of.</summary>
+        public WarningKind Kind { get; }
+
+        /// <summary>The warning's line.</summary>
+        public string Text { get; }
+
+        /// <inheritdoc/>
+        public override string ToString() => Text;
+    }
+
+    /// <summary>When a hub that moved less than it was asked makes a run unreliable.</summary>
+    internal static class Shortfall
+    {
+        private const double OfAsked = 1e-3;
+        private const double OfLength = 1e-6;    // of the wire: the give of a hub that rests
+
+        /// <summary>Whether a shortfall counts; all in one unit of length.</summary>
+        /// <param name="shortfall">What is missing; negative where the hub went farther than asked.</param>
+        /// <param name="asked">The motion that was asked, there and back both counted.</param>
+        /// <param name="length">Of the wire.</param>
+        public static bool Counts(double shortfall, double asked, double length) =>
+            Math.Abs(shortfall) > Math.Max(OfAsked * asked, OfLength * length);
+    }
 }
