@@ -61,7 +61,7 @@ namespace Guidewire.Io
             return Array.TrueForAll(_needed, item.ContainsKey) && isAllowed(value);
         }, Write);
 
-        private JToken Write(T value)
+        private JObject Write(T value)
         {
             var item = new JObject();
             foreach (Field field in _fields)
