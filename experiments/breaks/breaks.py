@@ -18,6 +18,7 @@ import subprocess
 import sys
 import tempfile
 from collections.abc import Iterator, Sequence
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -103,8 +104,8 @@ def main() -> int:
         subprocess.run(["git", "clone", "-q", ROOT, copy], check=True)
         results: list[tuple[int, str]] = []
         python = [number for number in numbers if number not in compiled]
-        for number, text in (*((k, try_python(copy, rows[k - 1], k)) for k in python),
-                             *(try_compiled(copy, rows, compiled) if compiled else ())):
+        for number, text in chain(((k, try_python(copy, rows[k - 1], k)) for k in python),
+                                  try_compiled(copy, rows, compiled) if compiled else ()):
             print(f"{number}\t{rows[number - 1]['what'] if number else 'Nothing is broken'}\t{text}", flush=True)
             results.append((number, text))
         missed = [number for number, text in results if text.startswith("missed") == (number > 0)]
