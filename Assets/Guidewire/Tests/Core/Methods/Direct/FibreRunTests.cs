@@ -33,10 +33,10 @@ namespace Guidewire.Core.Tests
             Report("back to half of the force", shape, xHalf, yHalf);
         }
 
-        /// <summary>The tip under forces from the beginning of the plateau to far beyond it, from one number of elements
-        /// to twice it: of second order, as of a linear wire, where fibres are fine. Where sections are in the middle of
-        /// the plateau, on which curvature hardly takes a couple, it is less. With the default rule the kinks of fibres
-        /// leave some 0.1 % of its way at any number of elements.</summary>
+        /// <summary>The tip under forces from the beginning of the plateau to far beyond it, from one number of
+        /// elements to twice it: of second order, as of a linear wire, where fibres are fine. Where sections are in the
+        /// middle of the plateau, on which curvature hardly takes a couple, it is less. With the default rule the kinks
+        /// of fibres leave some 0.1 % of its way at any number of elements.</summary>
         [Category("Long")]
         [TestCase(0.1, 1.7)]
         [TestCase(0.2, 1.2)]
