@@ -18,6 +18,7 @@ from guidewire.export.curves import Curve, curves_of
 from guidewire.export.frame import frame_of
 from guidewire.export.usd import CODES, write_usd
 from guidewire.logs.logs import read_log
+from guidewire.logs.surfaces import Surface
 from guidewire.prepare import ROOT, PreparationError
 from guidewire.runs.runner import Request
 from guidewire.viewer.recording import Channel, Recording
@@ -74,6 +75,15 @@ def test_a_frame_has_the_axes_that_are_asked_for(patient, asked, expected, lette
     np.testing.assert_allclose(np.linalg.norm(frame.vectors(np.array([3.0, 0.0, 4.0]))), 5.0)
     assert frame.letters == letters and frame.unit == "mm"
     assert frame.space == (letters if letters in ("LPS", "RAS") else "")
+
+
+@pytest.mark.parametrize("patient", (LPS, {"left": [1.0, 0.0, 0.0], "chest": [0.0, 1.0, 0.0], "head": [0.0, 0.0, 1.0]}))
+def test_triangles_face_where_they_did_also_where_a_run_is_mirrored(patient) -> None:
+    frame = frame_of({"metresPerUnit": 0.01, "wireRadius": 1e-4}, patient, None)
+    wall = Surface(np.eye(3), np.array([[0, 1, 2]]), np.zeros(3))
+    vertices, triangles = frame.surface(wall)
+    first, second, third = vertices[triangles[0]]
+    assert np.cross(second - first, third - first) @ frame.vectors(np.ones(3)) > 0.0
 
 
 def test_axes_of_a_run_that_has_none_are_refused_and_gains_have_no_mm() -> None:
