@@ -10,11 +10,9 @@ the count of the run itself decides, which looks at each part of a step. Lengths
 from __future__ import annotations
 
 import json
-import shutil
 import sys
 import time
-from collections.abc import Iterable, Iterator, Sequence
-from contextlib import closing
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -26,7 +24,7 @@ from experiments.campaigns import material_claims
 from experiments.campaigns.push_campaign import CODES, OF_ENDS
 from experiments.campaigns.push_claims import RIM
 from experiments.campaigns.results import Record
-from experiments.campaigns.runs import close, fill, folder_of, parser_of
+from experiments.campaigns.runs import close, fill, folder_of, parser_of, played
 from guidewire.logs.logs import read_log
 from guidewire.logs.strands import link, passages
 from guidewire.runs import building
@@ -150,25 +148,13 @@ def make(runner: Runner, seed: int, folder: Path) -> Feed:
                 sum(one.may_be_round_the_tip for one in passed), change)
 
 
-def campaign(command: Sequence[str], seeds: Iterable[int], folder: Path) -> Iterator[Feed]:
-    """The feeds of these seeds, one after another in one process; files of those that break nothing are removed."""
-    with closing(Runner(command)) as runner:
-        for seed in seeds:
-            feed = make(runner, seed, folder)
-            shutil.rmtree(folder / f"run-{seed}", ignore_errors=True)
-            if not feed.claims:
-                for path in folder.glob(f"feed-{seed}.*"):
-                    path.unlink()
-            yield feed
-
-
 def main(arguments: Sequence[str]) -> int:
     parser = parser_of("feed_campaign", __doc__)
     parser.add_argument("--keep", type=Path, help="folder for the scenes of runs that break a claim")
     given = parser.parse_args(arguments)
     command, record = building.build(building.RUNNER, print), Record(given.record)
     with folder_of(given) as folder:
-        lines = fill(record, given, lambda seeds: campaign(command, seeds, folder), red("feed"))
+        lines = fill(record, given, lambda seeds: played(command, seeds, make, folder, "feed"), red("feed"))
     return close("feed", "feed_campaign", lines, given, withdrawn=sum(one["link"] is not None for one in lines),
                  round_the_tip=sum(one["round_the_tip"] for one in lines))
 

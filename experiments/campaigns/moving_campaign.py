@@ -9,11 +9,9 @@ point of its core line may be outside, and its surface at most 0.02 of its radiu
 from __future__ import annotations
 
 import json
-import shutil
 import sys
 import time
-from collections.abc import Iterable, Iterator, Sequence
-from contextlib import closing
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -23,7 +21,7 @@ import numpy as np
 from analysis.wall_search import MeshSearch
 from experiments.campaigns.pushes import bent_line, swept_mesh
 from experiments.campaigns.results import Record
-from experiments.campaigns.runs import close, fill, folder_of, parser_of
+from experiments.campaigns.runs import close, fill, folder_of, parser_of, played
 from guidewire.anatomy.motion import motion_of, write_centreline
 from guidewire.logs.logs import read_log
 from guidewire.logs.runs import read_run
@@ -152,25 +150,13 @@ def judge(run: Any, folder: Path) -> tuple[list[str], float, float]:
     return claims, float(deepest), farthest
 
 
-def campaign(command: Sequence[str], seeds: Iterable[int], folder: Path) -> Iterator[Moving]:
-    """The runs of these seeds, one after another in one process; files of those that break nothing are removed."""
-    with closing(Runner(command)) as runner:
-        for seed in seeds:
-            own = make(runner, seed, folder)
-            shutil.rmtree(folder / f"run-{seed}", ignore_errors=True)
-            if not own.claims:
-                for path in folder.glob(f"moving-{seed}.*"):
-                    path.unlink()
-            yield own
-
-
 def main(arguments: Sequence[str]) -> int:
     parser = parser_of("moving_campaign", __doc__, 300)
     parser.add_argument("--keep", type=Path, help="folder for the scenes of runs that break a claim")
     given = parser.parse_args(arguments)
     command, record = building.build(building.RUNNER, print), Record(given.record)
     with folder_of(given) as folder:
-        lines = fill(record, given, lambda seeds: campaign(command, seeds, folder), red("moving"))
+        lines = fill(record, given, lambda seeds: played(command, seeds, make, folder, "moving"), red("moving"))
     return close("moving", "moving_campaign", lines, given,
                  deepest=max((one["deepest"] for one in lines), default=0.0))
 

@@ -10,11 +10,9 @@ that broke a claim the last time go first.
 from __future__ import annotations
 
 import json
-import shutil
 import sys
 import time
 from collections.abc import Iterable, Iterator, Sequence
-from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -24,7 +22,7 @@ import numpy as np
 from analysis.wall_search import Walls, crosses_itself, triangles_of
 from experiments.campaigns import material_claims, material_pushes, push_claims, pushes
 from experiments.campaigns.results import Record
-from experiments.campaigns.runs import close, fill, folder_of, parser_of
+from experiments.campaigns.runs import close, fill, folder_of, parser_of, played
 from guidewire.logs.logs import read_log
 from guidewire.logs.surfaces import read_obj
 from guidewire.runs import building
@@ -155,15 +153,8 @@ def starts_in_a_wall(scene: dict[str, Any], walls: Walls) -> bool:
 def campaign(command: Sequence[str], seeds: Iterable[int], folder: Path, method: str = "pbd", is_soft: bool = False,
              gives_way: bool = False) -> Iterator[Push]:
     """The pushes of these seeds, one after another in one process; files of those that break nothing are removed."""
-    with closing(Runner(command)) as runner:
-        for seed in seeds:
-            push = make(runner, seed, method, folder, is_soft, gives_way)
-            shutil.rmtree(folder / f"run-{seed}", ignore_errors=True)
-            if not push or not push.claims:
-                for path in folder.glob(f"push-{seed}.*"):
-                    path.unlink()
-            if push:
-                yield push
+    return played(command, seeds, lambda runner, seed, out: make(runner, seed, method, out, is_soft, gives_way), folder,
+                  "push")
 
 
 def main(arguments: Sequence[str]) -> int:

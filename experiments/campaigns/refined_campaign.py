@@ -8,11 +8,10 @@ limits is told as a claim, and the files stay.
 from __future__ import annotations
 
 import json
-import shutil
 import sys
-from collections.abc import Iterable, Iterator, Sequence
-from contextlib import closing
+from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -20,7 +19,7 @@ import numpy as np
 from experiments.campaigns import push_campaign
 from experiments.campaigns.material_pushes import CATHETERS
 from experiments.campaigns.results import Record
-from experiments.campaigns.runs import close, fill, folder_of, parser_of
+from experiments.campaigns.runs import close, fill, folder_of, parser_of, played
 from guidewire.advice.trials import finer
 from guidewire.runs import building
 from guidewire.runs.runner import Request, Runner
@@ -52,21 +51,9 @@ class Refined:
     tip: float = 0.0
 
 
-def campaign(command: Sequence[str], seeds: Iterable[int], folder: Path, method: str) -> Iterator[Refined]:
-    """The runs of these seeds with their repeats; files of those without a claim are removed."""
-    with closing(Runner(command)) as runner:
-        for seed in seeds:
-            kind, path = push_campaign.write(seed, method, folder)
-            refined = _judge(runner, seed, kind, path, folder)
-            for made in folder.glob(f"run-{seed}*"):
-                shutil.rmtree(made)
-            if not refined.claims:
-                for made in folder.glob(f"push-{seed}.*"):
-                    made.unlink()
-            yield refined
-
-
-def _judge(runner: Runner, seed: int, kind: str, path: Path, folder: Path) -> Refined:
+def make(runner: Runner, seed: int, folder: Path, method: str) -> Refined:
+    """Draw and run a push and its repeats."""
+    kind, path = push_campaign.write(seed, method, folder)
     out = folder / f"run-{seed}"
     answer = runner.run(Request(str(seed), path, out), _RUN_LIMIT)
     if answer.outcome != "finished":
@@ -107,7 +94,8 @@ def main(arguments: Sequence[str]) -> int:
     given = parser.parse_args(arguments)
     command = building.build(building.RUNNER, print)
     with folder_of(given) as folder:
-        lines = fill(Record(given.record), given, lambda seeds: campaign(command, seeds, folder, given.method))
+        lines = fill(Record(given.record), given, lambda seeds: played(
+            command, seeds, partial(make, method=given.method), folder, "push"))
     sure = [one for one in lines if one["outcome"] == "reliable"]
     return close(f"refined {given.method}", f"refined_campaign --method {given.method}", lines, given,
                  force=sum(one["force"] > FORCE for one in sure), tip=sum(one["tip"] > TIP for one in sure))

@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import argparse
 import itertools
+import shutil
 import tempfile
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
 from experiments.campaigns import results
 from experiments.campaigns.results import Record
+from guidewire.runs.runner import Runner
 from tools.seeds import keep
 
 FINE = ("finished", "converged", "reliable")  # ends of which nothing is told one by one
@@ -38,6 +40,27 @@ def folder_of(given: argparse.Namespace) -> Iterator[Path]:
         folder = given.keep or Path(scratch)
         folder.mkdir(parents=True, exist_ok=True)
         yield folder
+
+
+def played(command: Sequence[str], seeds: Iterable[int], make: Callable[[Runner, int, Path], Any], folder: Path,
+           name: str) -> Iterator[Any]:
+    """Return the runs of these seeds, one after another in one process.
+
+    Parameters
+    ----------
+    make : one run, with files `NAME-SEED.*` and folders `run-SEED` and `run-SEED-*`; None for a seed that is skipped.
+        Files stay where it breaks a claim.
+    """
+    with closing(Runner(command)) as runner:
+        for seed in seeds:
+            one = make(runner, seed, folder)
+            for out in (folder / f"run-{seed}", *folder.glob(f"run-{seed}-*")):
+                shutil.rmtree(out, ignore_errors=True)
+            if not one or not one.claims:
+                for path in folder.glob(f"{name}-{seed}.*"):
+                    path.unlink()
+            if one:
+                yield one
 
 
 def fill(record: Record, given: argparse.Namespace, play: Callable[[Iterable[int]], Iterable[Any]],

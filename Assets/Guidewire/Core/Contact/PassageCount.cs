@@ -54,7 +54,8 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>The same of wall w, as it sees these positions.</summary>
+        /// <summary>Takes note of the points that leave across wall w, at these positions as that wall sees
+        /// them.</summary>
         public void AddPart(int w, Vector3d[] from, Vector3d[] to)
         {
             int n = _elements;
@@ -85,7 +86,8 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>The same of wall w, as it sees these positions.</summary>
+        /// <summary>Counts the passages through wall w in the whole step, at these positions as that wall sees
+        /// them.</summary>
         public void EndStep(int w, Vector3d[] from, Vector3d[] to)
         {
             int points = PointsOf(_elements);

@@ -116,7 +116,7 @@ namespace Guidewire.Core
         /// <summary>The place X of the wall at rest that is at x now.</summary>
         public Vector3d AtRest(in Vector3d x) => AtRest(x, out _, false);
 
-        /// <summary>The same with G.</summary>
+        /// <summary>The place X of the wall at rest that is at x now, and G there.</summary>
         internal Vector3d AtRest(in Vector3d x, out Matrix3 gradient) => AtRest(x, out gradient, true);
 
         /// <summary>Where the place X of the wall at rest is now.</summary>
@@ -126,7 +126,8 @@ namespace Guidewire.Core
             return moved;
         }
 
-        /// <summary>The same; false where none was found.</summary>
+        /// <summary>Finds where the place X of the wall at rest is now; false where Newton's method finds
+        /// none.</summary>
         internal bool TryMove(in Vector3d rest, out Vector3d moved)
         {
             int near = 0;

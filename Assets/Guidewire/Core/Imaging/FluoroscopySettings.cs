@@ -63,8 +63,8 @@ namespace Guidewire.Core
         /// <summary>Filled with contrast agent: darker than the background.</summary>
         Contrast,
 
-        /// <summary>As a road map, a picture with contrast that was subtracted from those that follow: brighter than
-        /// the background, without hiding instruments.</summary>
+        /// <summary>A road map, which is a picture with contrast that is subtracted from those that follow: brighter
+        /// than the background, without hiding instruments.</summary>
         RoadMap,
 
         /// <summary>Where contrast agent is injected: darker by its part of the blood there.</summary>

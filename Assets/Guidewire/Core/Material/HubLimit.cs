@@ -81,7 +81,7 @@ namespace Guidewire.Core
         private int _stepsBeyond;
         private double _maxBeyond;              // N
 
-        /// <summary>Of a hub that has not moved.</summary>
+        /// <summary>The record of a hub that has not moved.</summary>
         public SlipRecord(in HubLimit limit)
         {
             _limit = limit;
@@ -90,7 +90,7 @@ namespace Guidewire.Core
         /// <summary>The end of the first step in which it slipped, s; NaN where there is none.</summary>
         public double SlippedFrom => _first;
 
-        /// <summary>That it slipped, in one phrase, or null.</summary>
+        /// <summary>Says that the hub slipped, in one phrase; null where it did not.</summary>
         public string? Why => double.IsNaN(_first) ? null : string.Format(CultureInfo.InvariantCulture,
             "it slipped at its hubForceLimit of {0:G3} N{1}, first at t = {2:G4} s", _limit.Push,
             _limit.IsOfHand ? ", that of a hand" : "", _first);
@@ -113,7 +113,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>That it had more than its limit, or null.</summary>
+        /// <summary>Warns of a force of the hub beyond its limit; null where there was none.</summary>
         /// <param name="name">What the warning calls the hub.</param>
         public RunWarning? FindExcess(string name)
         {
@@ -143,8 +143,8 @@ namespace Guidewire.Core
 
         private const int Places = 64;
 
-        /// <summary>Of the last <see cref="TipLength"/>, held behind it and pressed at its end, N. Rayleigh's quotient
-        /// with the shape of an even column, exact for such a one.</summary>
+        /// <summary>The buckling load of the last <see cref="TipLength"/>, clamped behind it and free at its end, N:
+        /// Rayleigh's quotient with the shape of a uniform column, for which it is exact.</summary>
         /// <param name="material">Of the instrument.</param>
         /// <param name="length">Of the instrument, units.</param>
         /// <param name="metres">Of a unit.</param>
@@ -162,7 +162,8 @@ namespace Guidewire.Core
             return 0.25 * Math.PI * Math.PI * sum / (free * free);
         }
 
-        /// <summary>Of the shaft at its hub, its direction held at both ends of <see cref="ShaftLength"/>, N.</summary>
+        /// <summary>The buckling load of the shaft at its hub, clamped at both ends of <see cref="ShaftLength"/>,
+        /// N.</summary>
         /// <param name="material">Of the instrument.</param>
         public static double OfShaft(MaterialParameters material)
         {

@@ -117,7 +117,7 @@ namespace Guidewire.Core
 
         /// <summary>1 where the hub behind carries this one along in the present step, -1 where that ahead does, else
         /// 0.</summary>
-        public int Carried { get; private set; }
+        public int Carried => Math.Sign(_carriedBy);
 
         /// <summary>Distance of node 0 beyond the largest displacement allowed, m; negative if it is within.</summary>
         public double BeyondLimit => Insertion - _maxInsertion;
@@ -172,11 +172,10 @@ namespace Guidewire.Core
             CommandedDisplacement = Math.Abs(own);
             TotalCommandedDisplacement += CommandedDisplacement;
             double goes = Limited(_override ?? asked);
-            Carried = (goes - own) * (asked - own) > 0.0 ? Math.Sign(asked) : 0;
-            _carriedBy = Carried != 0 ? goes - own : 0.0;
+            _carriedBy = (goes - own) * (asked - own) > 0.0 ? goes - own : 0.0;
             if (goes != own)
             {
-                Slip += Carried != 0 ? 0.0 : _sense * (own - goes);
+                Slip += _sense * (own - goes + _carriedBy);
                 speed = goes / _timeStep;
             }
             Axis = _direction.At(shape.X[0], shape.X[1]);

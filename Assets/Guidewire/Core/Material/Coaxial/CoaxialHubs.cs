@@ -72,7 +72,7 @@ namespace Guidewire.Core
     /// position a derivative is.</summary>
     internal sealed class HubSpeeds
     {
-        /// <summary>Of so many instruments; nothing moves.</summary>
+        /// <summary>The speeds of so many instruments, all of them 0.</summary>
         public HubSpeeds(int count)
         {
             Instruments = new double[count];
@@ -89,7 +89,7 @@ namespace Guidewire.Core
     internal sealed class HubPlaces
     {
         private const double Rounding = 1e-14;    // of a length
-        /// <summary>Of so many instruments, all hubs in one place.</summary>
+        /// <summary>The places of so many instruments, all hubs in one.</summary>
         public HubPlaces(int count)
         {
             Leads = new double[count];

@@ -159,7 +159,7 @@ namespace Guidewire.Core
         /// <summary>Rates from the forces of this time are asked for, at the start of a step of length h, s.</summary>
         public void BeginRates(double time, double h)
         {
-            _walls?.Carry(_shape);
+            _walls?.TakePlaces(_shape);
             _terms.SetTime(_schedule, time);
             BeginDamping(time);
             Damping?.TakeMoment(h);
@@ -203,7 +203,7 @@ namespace Guidewire.Core
             double h = _inertia.StageLength;
             double before = Math.Min(time, jump);
             _inertia.BeginStage();
-            _walls?.Carry(_shape);
+            _walls?.TakePlaces(_shape);
             _terms.SetTime(_schedule, before);
             Surrounding = _walls?.Carry(_shape, _isEuler ? h : 0.0);
             _terms.Walls()?.Barrier.BeginStage(_inertia.FreePositions, _velocityHistory, h, Surrounding);

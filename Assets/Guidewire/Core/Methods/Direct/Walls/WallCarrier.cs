@@ -31,7 +31,7 @@ namespace Guidewire.Core
 
         /// <summary>Takes where the wire is; the walls are where they were then.</summary>
         /// <returns>Whether any wall moves.</returns>
-        public bool Carry(RodShape shape)
+        public bool TakePlaces(RodShape shape)
         {
             _isTaken = _barrier.Fields.Carrier >= 0;
             _count = shape.ElementCount + 1;

@@ -33,10 +33,10 @@ namespace Guidewire.Core
         }
 
         /// <summary>Takes where the wire is, before walls go to where they are in this stage.</summary>
-        public void Carry(RodShape shape)
+        public void TakePlaces(RodShape shape)
         {
             _lag = null;
-            if (_carrier.Carry(shape))
+            if (_carrier.TakePlaces(shape))
             {
                 _prediction.TakeLengths(shape);
                 _lag = _terms.Walls()!.Spring.LagOf(shape);
