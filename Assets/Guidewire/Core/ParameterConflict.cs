@@ -1,4 +1,5 @@
 using System;
+using System.Linq;
 
 namespace Guidewire.Core
 {
@@ -148,6 +149,9 @@ namespace Guidewire.Core
                 p => p.HasDistalClamp || !p.Scene.DistalMotion!.Turns, "rotations of 0 where the end is only held"),
             OfSheath(p => p.Scene.ProximalMotion == null, "no proximalMotionFile"),
             new Rule("hubForceLimit", p => p.Drive.HubForceLimit > 0.0 && !p.HasWalls, NoSlipWithoutWalls),
+            new Rule("timeStep", p => Array.Exists(p.Scene.Walls, wall => wall.Motion?.Cycles.Any(
+                cycle => cycle.Period * (1.0 + 1e-9) < FewestStepsOfCycle * p.Method.TimeStep) == true),
+                "at most an eighth of each period in a wall's motion: longer steps would not see it move"),
             new Rule("vessel.motion", p => !p.Traits.HasBarriers
                 && Array.Exists(p.Scene.Walls, wall => wall.Motion != null),
                 "solver direct: with the others walls stand still"),
@@ -188,6 +192,7 @@ namespace Guidewire.Core
             OfCatheters(p => p.Material.BendLaw == BendLaw.RotationVector, "bendLaw \"rotationVector\""),
         };
 
+        private const double FewestStepsOfCycle = 8.0;
         private const string NoSlipWithoutWalls = "a vessel or obstacles: without walls the hub does not slip";
         private const string ClampedByDrive = "proximalEnd \"clamped\", and no drive \"force\"";
         private const string MovingDrive = "drive \"displace\" or \"push\"";

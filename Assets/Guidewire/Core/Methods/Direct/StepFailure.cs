@@ -16,6 +16,7 @@ namespace Guidewire.Core
         private const string FewIterations = "; maxNewtonIterations is below its default, which may suffice";
 
         private const double OfElement = 0.01;     // by which a hub may be past its end
+        private const double OffAxis = 1e-3;       // of the radius: a held end gives way by EA/l, some newtons there
         private const int AtHub = 1;               // element, up to which a contact is at the hub
 
         private readonly MaterialScene _scene;
@@ -96,7 +97,7 @@ namespace Guidewire.Core
             off -= Vector3d.Dot(off, _dynamics.Terms.HubAxis(_dynamics.Shape)) * _dynamics.Terms.HubAxis(
                 _dynamics.Shape);
             bool isOff = _scene.Supports.SheathEnd != null ? _walls.Barrier.Nodes.Clearance < radius
-                : off.Length > radius;
+                : off.Length > OffAxis * radius;
             string what = _scene.Supports.SheathEnd != null ? "the sheath's exit" : "the end that is held";
             return !isOff ? null : string.Format(CultureInfo.InvariantCulture, "at t = {0:G6} s the vessel has moved "
                 + "away from {1}, which stands still: it presses the wire off it; a motion that is smaller there may "
