@@ -137,7 +137,7 @@ namespace Guidewire.Io
 
         // A tip load P is that at which the last 10 mm, clamped at one end and free at the other, buckle:
         // P = pi^2 EI/(4 l^2). The tip of this EI follows the distal sections, of which the last may taper to it.
-        private static double? ReadTipStiffness(InstrumentFields fields)
+        private static double? ReadTipStiffness(InstrumentFields fields, double shaft)
         {
             if (!fields.Has("tipLoad"))
             {
@@ -145,12 +145,15 @@ namespace Guidewire.Io
                     ? throw fields.Wrong("tipLoad", "the load of the tip with this tipLength")
                     : (double?)null;
             }
-            return 4.0 * fields.Quantity("tipLoad", Dimension.Force) * FreeTip * FreeTip / (Math.PI * Math.PI);
+            double stiffness = 4.0 * fields.Quantity("tipLoad", Dimension.Force) * FreeTip * FreeTip
+                / (Math.PI * Math.PI);
+            return stiffness <= shaft ? stiffness : throw fields.Wrong("tipLoad",
+                "a load with which the tip is no stiffer than the shaft");
         }
 
         private static void ReadSections(InstrumentFields fields, Instrument instrument)
         {
-            double? tip = ReadTipStiffness(fields);
+            double? tip = ReadTipStiffness(fields, instrument.BendingStiffness);
             foreach (InstrumentFields section in fields.List("distalSections", "length", "bendingStiffness",
                 "coreDiameter", "profile"))
             {

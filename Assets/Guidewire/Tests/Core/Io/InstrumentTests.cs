@@ -115,6 +115,7 @@ namespace Guidewire.Core.Tests
             "coreModulus = {\"value\":\"60 GPa\"")]
         [TestCase("'tipLength': {'value': '3 cm', 'basis': 'measured', 'source': 'here'}", "tipLoad = (missing)")]
         [TestCase("'tipLoad': {'value': '2', 'basis': 'measured', 'source': 'here'}", "this has no unit")]
+        [TestCase("'tipLoad': {'value': '1e9 g', 'basis': 'measured', 'source': 'here'}", "no stiffer than the shaft")]
         public void WrongDataSheet_IsRefused(string member, string expected)
         {
             Write("own", Own.Replace("'torsionalRatio'", member + ", 'torsionalRatio'"));

@@ -159,10 +159,25 @@ namespace Guidewire.Core.Tests
             }
         }
 
-        [Test]
-        public void VesselThatMovesAwayFromTheHeldEnd_EndsTheRun()
+        // A wall of 1 s seen every half second stands still.
+        [TestCase(0.5)]
+        [TestCase(0.126)]
+        public void StepLongerThanAnEighthOfAPeriod_IsRefused(double timeStep)
         {
-            SimulationParameters parameters = Clamped(new Vector3d(30.0, 0.0, 0.0));
+            SimulationParameters parameters = Clamped(new Vector3d(1.0, 0.0, 0.0));
+            parameters.Method.TimeStep = timeStep;
+            Assert.That(() => Simulation.Create(parameters), Throws.ArgumentException.With.Message.Contains(
+                "timeStep needs at most an eighth of each period"));
+            parameters.Method.TimeStep = 0.125;
+            Assert.That(() => Simulation.Create(parameters), Throws.Nothing);
+        }
+
+        // The clearance is 4.8: in the second case it is passed by a tenth of the wire's radius.
+        [TestCase(30.0)]
+        [TestCase(4.82)]
+        public void VesselThatMovesAwayFromTheHeldEnd_EndsTheRun(double way)
+        {
+            SimulationParameters parameters = Clamped(new Vector3d(way, 0.0, 0.0));
             Simulation simulation = Simulation.Create(parameters);
             for (int k = 0; k < 100 && simulation.Outcome == Outcome.Running; k++)
             {
