@@ -270,7 +270,7 @@ namespace Guidewire.Core
             var snapshot = new Snapshot();
             int elements = State.ElementCount;
             snapshot.Serialize(ref elements);
-            SerializeStart(snapshot, _start);
+            _start.Serialize(snapshot);
             Serialize(snapshot);
             snapshot.Serialize(PredictionError);
             Contacts?.Serialize(snapshot);    // of the last step, as the error before: shown, not used
@@ -306,7 +306,7 @@ namespace Guidewire.Core
                 {
                     ExitOfSheath = parameters.Scene.Sheath == null ? (Vector3d?)null : Vector3d.Zero,
                 };
-                SerializeStart(snapshot, start);
+                start.Serialize(snapshot);
                 Simulation simulation = Rebuild(parameters, start, snapshot);
                 simulation._stepper.PredictionError = snapshot.Serialize(0.0);
                 simulation.Contacts?.Serialize(snapshot);
@@ -417,20 +417,6 @@ namespace Guidewire.Core
         }
 
         private bool HasResult => Outcome != Outcome.Running && (StepCount > 0 || Outcome == Outcome.Converged);
-
-        private static void SerializeStart(Snapshot snapshot, RodStart start)
-        {
-            snapshot.Serialize(start.Positions);
-            snapshot.Serialize(start.Orientations);
-            snapshot.Serialize(start.Velocities);
-            snapshot.Serialize(start.AngularVelocities);
-            start.ProximalFrame = snapshot.Serialize(start.ProximalFrame ?? Quaterniond.Identity);
-            start.DistalFrame = snapshot.Serialize(start.DistalFrame ?? Quaterniond.Identity);
-            if (start.ExitOfSheath is Vector3d exit)
-            {
-                start.ExitOfSheath = snapshot.Serialize(exit);
-            }
-        }
 
         private void Serialize(Snapshot snapshot)
         {

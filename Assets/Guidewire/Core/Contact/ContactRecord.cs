@@ -196,14 +196,11 @@ namespace Guidewire.Core
             Pressure = snapshot.Serialize(Pressure);
             snapshot.Serialize(Forces, _spheres);
             snapshot.Serialize(ElementForces, _spheres - 1);
-        }
-
-        /// <summary>The displacements of soft walls and the forces of strands, which another run of the same wire may
-        /// not have.</summary>
-        internal void SerializeOptional(Snapshot snapshot)
-        {
-            snapshot.Serialize(Displacements, Math.Min(Displacements.Length, _spheres - 1));
-            snapshot.Serialize(StrandForces, Math.Min(StrandForces.Length, _spheres));
+            if (snapshot.IsStep)    // another run of the same wire may not have them
+            {
+                snapshot.Serialize(Displacements, Math.Min(Displacements.Length, _spheres - 1));
+                snapshot.Serialize(StrandForces, Math.Min(StrandForces.Length, _spheres));
+            }
         }
 
         /// <summary>Adds what the drive asked of sphere 0 in a step, and what of it the walls prevented,

@@ -112,13 +112,19 @@ namespace Guidewire.Core
         /// stiffer than the writer's was, the same motion in the same shape holds more, and that was put in.</summary>
         public void Serialize(Snapshot snapshot)
         {
+            if (snapshot.IsStep)
+            {
+                SerializeWork(snapshot);
+                _before.Serialize(snapshot);
+                return;
+            }
             double ownMotion = Motion();
             double ownElastic = _terms.StoredEnergy(_shape);
             double motion = ownMotion;
             double elastic = ownElastic;
             snapshot.Serialize(ref motion);
             snapshot.Serialize(ref elastic);
-            SerializeSums(snapshot);
+            SerializeWork(snapshot);
             if (!snapshot.IsWritten)
             {
                 _start += Math.Max(0.0, ownMotion - motion) + Math.Max(0.0, ownElastic - elastic);
@@ -126,18 +132,10 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Writes or restores all that <see cref="Blowup"/> may touch, for a <see cref="StepStart"/>.
-        /// </summary>
-        public void SerializeStep(Snapshot snapshot)
-        {
-            SerializeSums(snapshot);
-            _before.Serialize(snapshot);
-        }
-
         // What the wire stores, and what its material has turned into heat, J.
         private double Kept => _terms.StoredEnergy(_shape) + (_terms.Fibres?.Loss ?? 0.0);
 
-        private void SerializeSums(Snapshot snapshot)
+        private void SerializeWork(Snapshot snapshot)
         {
             snapshot.Serialize(ref _start);
             snapshot.Serialize(ref _loadWork);

@@ -155,11 +155,22 @@ namespace Guidewire.Core
             MaxWork = Math.Max(MaxWork, Work + _carried);
         }
 
-        /// <summary>Writes or restores the turns that the frames have made.</summary>
-        public void SerializeTurns(Snapshot snapshot)
+        /// <summary>Writes or restores the turns that the frames have made; for a step also the work, and where the
+        /// ends are.</summary>
+        public void Serialize(Snapshot snapshot)
         {
             snapshot.Serialize(ref _proximalTurn);
             snapshot.Serialize(ref _distalTurn);
+            if (snapshot.IsStep)
+            {
+                SerializeWork(snapshot);
+                snapshot.Serialize(ref _firstPosition);
+                snapshot.Serialize(ref _lastPosition);
+                snapshot.Serialize(ref _firstFrame);
+                snapshot.Serialize(ref _lastFrame);
+                snapshot.Serialize(_lead);
+                snapshot.Serialize(_hubTwist);
+            }
         }
 
         /// <summary>Writes or restores the work.</summary>
@@ -168,19 +179,6 @@ namespace Guidewire.Core
             Work = snapshot.Serialize(Work);
             MaxWork = snapshot.Serialize(MaxWork);
             snapshot.Serialize(ref _carried);
-        }
-
-        /// <summary>Writes or restores all that a step may touch, for a <see cref="StepStart"/>.</summary>
-        public void SerializeStep(Snapshot snapshot)
-        {
-            SerializeTurns(snapshot);
-            SerializeWork(snapshot);
-            snapshot.Serialize(ref _firstPosition);
-            snapshot.Serialize(ref _lastPosition);
-            snapshot.Serialize(ref _firstFrame);
-            snapshot.Serialize(ref _lastFrame);
-            snapshot.Serialize(_lead);
-            snapshot.Serialize(_hubTwist);
         }
 
         private void CountInner(RodShape shape, out double move, out double turn)

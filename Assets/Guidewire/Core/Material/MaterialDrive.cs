@@ -65,9 +65,9 @@ namespace Guidewire.Core
             _followsSpring = true;
             _minInsertion = drive._minInsertion;
             _maxInsertion = drive._maxInsertion;
-            var kept = new Snapshot();
-            drive.SerializeOwn(kept);
-            SerializeOwn(kept.ToRead());
+            var kept = new Snapshot(isStep: true);
+            drive.Serialize(kept);
+            Serialize(kept.ToRead());
         }
 
         /// <summary>How far the hub goes in a step where it slips, m, as far as that is not asked.</summary>
@@ -210,7 +210,7 @@ namespace Guidewire.Core
         /// go, m.</summary>
         public double AxialProgress(in Vector3d from, in Vector3d to) => _sense * Vector3d.Dot(to - from, Axis);
 
-        /// <summary>Writes or restores how far the hub has come.</summary>
+        /// <summary>Writes or restores how far the hub has come; for a step also what it prescribes.</summary>
         public void Serialize(Snapshot snapshot)
         {
             Insertion = snapshot.Serialize(Insertion);
@@ -218,22 +218,12 @@ namespace Guidewire.Core
             Slip = snapshot.Serialize(Slip);
             TotalCommandedDisplacement = snapshot.Serialize(TotalCommandedDisplacement);
             snapshot.Serialize(ref _sense);
-        }
-
-        /// <summary>Writes or restores all that a step may touch, what it prescribes among it, for a
-        /// <see cref="StepStart"/>.</summary>
-        public void SerializeStep(Snapshot snapshot)
-        {
-            SerializeOwn(snapshot);
-            Hub.SerializeStep(snapshot);
-        }
-
-        private void SerializeOwn(Snapshot snapshot)
-        {
-            Serialize(snapshot);
-            Axis = snapshot.Serialize(Axis);
-            CommandedDisplacement = snapshot.Serialize(CommandedDisplacement);
-            StepEnd = snapshot.Serialize(StepEnd);
+            if (snapshot.IsStep)
+            {
+                Axis = snapshot.Serialize(Axis);
+                CommandedDisplacement = snapshot.Serialize(CommandedDisplacement);
+                StepEnd = snapshot.Serialize(StepEnd);
+            }
         }
 
         // Speed asked for from this time on, m/s.

@@ -237,14 +237,17 @@ namespace Guidewire.Core
         {
             foreach (EnergyTerm term in All)
             {
-                if (term != Fibres)
+                if (term != Fibres || snapshot.IsStep)
                 {
                     term.Serialize(snapshot);
                 }
             }
-            snapshot.OptionalSection(Fibres == null ? "fibres" : Fibres.StateCount + " fibres",
-                Fibres == null ? null : Fibres.Serialize);
-            Contact?.SerializeFriction(snapshot);
+            if (!snapshot.IsStep)
+            {
+                snapshot.OptionalSection(Fibres == null ? "fibres" : Fibres.StateCount + " fibres",
+                    Fibres == null ? null : Fibres.Serialize);
+            }
+            Contact?.Serialize(snapshot);
         }
 
         private double FrictionStored => Contact == null ? 0.0 : Contact.FrictionStored;
@@ -286,7 +289,7 @@ namespace Guidewire.Core
         {
         }
 
-        /// <summary>Writes or restores what friction keeps from step to step.</summary>
-        public abstract void SerializeFriction(Snapshot snapshot);
+        /// <summary>Writes or restores what contacts keep from step to step.</summary>
+        public abstract void Serialize(Snapshot snapshot);
     }
 }

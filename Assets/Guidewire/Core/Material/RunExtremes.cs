@@ -257,13 +257,6 @@ namespace Guidewire.Core
             LimitShare = Larger(LimitShare, share);
         }
 
-        /// <summary>Writes or restores them, for a step that is repeated.</summary>
-        internal void SerializeDisplacements(Snapshot snapshot)
-        {
-            WallDisplacement = snapshot.Serialize(WallDisplacement);
-            LimitShare = snapshot.Serialize(LimitShare);
-        }
-
         /// <summary>Takes what friction turned into heat in a step of dt (s).</summary>
         /// <param name="heat">J, 0 or more.</param>
         internal void TakeFriction(double heat, double dt)
@@ -300,6 +293,11 @@ namespace Guidewire.Core
             KeptPlace = snapshot.Serialize(KeptPlace);
             MaterialLoss = snapshot.Serialize(MaterialLoss);
             LawShare = snapshot.Serialize(LawShare);
+            if (snapshot.IsStep)
+            {
+                WallDisplacement = snapshot.Serialize(WallDisplacement);
+                LimitShare = snapshot.Serialize(LimitShare);
+            }
         }
 
         // Any number replaces NaN.

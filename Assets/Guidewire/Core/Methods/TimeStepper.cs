@@ -86,10 +86,6 @@ namespace Guidewire.Core
         public virtual void Serialize(Snapshot snapshot)
         {
         }
-
-        /// <summary>Does the same for <see cref="PredictionError"/>.</summary>
-        protected void SerializePredictionError(Snapshot snapshot) =>
-            PredictionError = snapshot.Serialize(PredictionError);
     }
 
     /// <summary>Results of a solver for a material about its own work, at the end of a run. A number that does not

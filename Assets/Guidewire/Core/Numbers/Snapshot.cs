@@ -8,7 +8,8 @@ namespace Guidewire.Core
     /// for bit, as one that was not interrupted.</summary>
     /// <remarks>What belongs together is listed once, in a method that takes a snapshot and passes it each number by
     /// reference, or takes each property back from it: the same list writes a snapshot and reads one, so the two cannot
-    /// differ. Every number takes 64 bits.</remarks>
+    /// differ. A step that is repeated and a run that is saved have one list too, which asks <see cref="IsStep"/> where
+    /// one of them needs more. Every number takes 64 bits.</remarks>
     internal sealed class Snapshot
     {
         private long[] _bits = new long[256];
@@ -16,11 +17,22 @@ namespace Guidewire.Core
         private int _at;
         private int _sectionEnd;
 
+        /// <summary>Makes an empty one.</summary>
+        /// <param name="isStep">See <see cref="IsStep"/>.</param>
+        public Snapshot(bool isStep = false)
+        {
+            IsStep = isStep;
+        }
+
+        /// <summary>Whether it is of the start of a step, for the same objects: all that the step may touch. Else it is
+        /// of a run, for objects that are made anew and may be those of other parameters.</summary>
+        public bool IsStep { get; }
+
         /// <summary>Whether numbers are written; else they are taken over.</summary>
         public bool IsWritten { get; private set; } = true;
 
         /// <summary>What has been written, to be read from its start.</summary>
-        public Snapshot ToRead() => new Snapshot { _bits = _bits, _count = _count, IsWritten = false };
+        public Snapshot ToRead() => new Snapshot(IsStep) { _bits = _bits, _count = _count, IsWritten = false };
 
         /// <summary>What comes next is written from the start on, in the memory that is there.</summary>
         public void RewindForWriting()

@@ -66,6 +66,21 @@ namespace Guidewire.Core
         /// <summary>n angular velocities in rad/s, body frame.</summary>
         public Vector3d[] AngularVelocities { get; }
 
+        /// <summary>Writes or restores it.</summary>
+        internal void Serialize(Snapshot snapshot)
+        {
+            snapshot.Serialize(Positions);
+            snapshot.Serialize(Orientations);
+            snapshot.Serialize(Velocities);
+            snapshot.Serialize(AngularVelocities);
+            ProximalFrame = snapshot.Serialize(ProximalFrame ?? Quaterniond.Identity);
+            DistalFrame = snapshot.Serialize(DistalFrame ?? Quaterniond.Identity);
+            if (ExitOfSheath is Vector3d exit)
+            {
+                ExitOfSheath = snapshot.Serialize(exit);
+            }
+        }
+
         /// <summary>Orientations of elements along the chords between positions: the first is z, [0, 0, 1], turned the
         /// shortest way, and none is turned about its own axis against the one before.</summary>
         /// <param name="positions">n + 1, no two successive ones the same; units.</param>

@@ -112,25 +112,22 @@ namespace Guidewire.Core
                 && _velocity == Vector3d.Zero && _twistRate == 0.0;
         }
 
-        /// <summary>Writes or restores what a drive prescribes anew before every step, for a
-        /// <see cref="StepStart"/>.</summary>
-        public void SerializeStep(Snapshot snapshot)
+        /// <summary>Writes into a snapshot, or restores from one, where the hub is at this time. In a run its rate
+        /// stays its own: a twist at another rate goes on from the present turn, and node 0 stays where a drive has
+        /// brought it until a drive takes it on.</summary>
+        public void Serialize(Snapshot snapshot, double time)
         {
+            double own = _twistRate;
             snapshot.Serialize(ref _position);
             snapshot.Serialize(ref _velocity);
             snapshot.Serialize(ref _positionTime);
             snapshot.Serialize(ref _twistRate);
             snapshot.Serialize(ref _turnOrigin);
             snapshot.Serialize(ref _turnOriginTime);
-        }
-
-        /// <summary>Writes into a snapshot, or restores from one, where the hub is at this time. Its rate stays its
-        /// own: a twist at another rate goes on from the present turn, and node 0 stays where a drive has brought it
-        /// until a drive takes it on.</summary>
-        public void Serialize(Snapshot snapshot, double time)
-        {
-            double own = _twistRate;
-            SerializeStep(snapshot);
+            if (snapshot.IsStep)
+            {
+                return;
+            }
             snapshot.Serialize(ref _frame);
             if (snapshot.IsWritten)
             {

@@ -179,16 +179,16 @@ namespace Guidewire.Core
         public override void Serialize(Snapshot snapshot)
         {
             MaterialSnapshot.Serialize(snapshot, Schedule, Shape, Velocities, Spins, ref _time);
-            Ends.SerializeTurns(snapshot);
+            Ends.Serialize(snapshot);
             int walls = Scene.Walls.Length;
-            if (!snapshot.Section(walls == 0 ? "xpbd" : "xpbd, walls " + walls, SerializeOwn))
+            if (!snapshot.Section(walls == 0 ? "xpbd" : "xpbd, walls " + walls, SerializeHistory))
             {
                 Energy.Start();
             }
             BeginTurns(snapshot, _time);
         }
 
-        private void SerializeOwn(Snapshot snapshot)
+        private void SerializeHistory(Snapshot snapshot)
         {
             Terms.Serialize(snapshot);
             Energy.Serialize(snapshot);
@@ -198,14 +198,12 @@ namespace Guidewire.Core
             Results.Serialize(snapshot);
             _walls?.Serialize(snapshot);
             // A multiplier is a force times h^2.
-            snapshot.Section((TimeStep / _substeps).ToString("R", CultureInfo.InvariantCulture), SerializeMultipliers);
-        }
-
-        private void SerializeMultipliers(Snapshot snapshot)
-        {
-            _stretch.Serialize(snapshot);
-            _bendTwist.Serialize(snapshot);
-            _walls?.Contacts.Serialize(snapshot);
+            snapshot.Section((TimeStep / _substeps).ToString("R", CultureInfo.InvariantCulture), kept =>
+            {
+                _stretch.Serialize(kept);
+                _bendTwist.Serialize(kept);
+                _walls?.Contacts.Serialize(kept);
+            });
         }
 
         private void Substep(double time, double h, bool isMeasured)

@@ -29,7 +29,7 @@ namespace Guidewire.Core
             Drives = drives;
             Slips = slips;
             _timeStep = timeStep;
-            _start = new StepStart(SerializeStep, Dynamics.Terms.Rod);
+            _start = new StepStart(Serialize, Dynamics.Terms.Rod);
             _slipping = new SlippingHubs(this, _start);
         }
 
@@ -113,9 +113,6 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public override void Serialize(Snapshot snapshot) => Rod.Serialize(snapshot);
 
-        /// <summary>Writes or restores all that a step may touch, for a <see cref="StepStart"/>.</summary>
-        public virtual void SerializeStep(Snapshot snapshot) => Rod.SerializeStep(snapshot);
-
         /// <summary>Moves the hubs, as far as they may go.</summary>
         protected virtual void BeginStep() => Drives[0].Prepare(Dynamics.Shape, Dynamics.Time);
 
@@ -135,7 +132,7 @@ namespace Guidewire.Core
     /// <remarks>Written into memory that is used anew, so that no step leaves garbage.</remarks>
     internal sealed class StepStart
     {
-        private readonly Snapshot _kept = new Snapshot();
+        private readonly Snapshot _kept = new Snapshot(isStep: true);
         private readonly Action<Snapshot> _exchange;
         private double _growth;    // of what is kept, at most; 0 once there is room for it
 

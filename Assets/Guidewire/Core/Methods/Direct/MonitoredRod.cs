@@ -449,44 +449,23 @@ namespace Guidewire.Core
         public void Serialize(Snapshot snapshot)
         {
             _dynamics.Serialize(snapshot);
+            if (snapshot.IsStep)
+            {
+                SerializeRecords(snapshot);
+                return;
+            }
             if (!snapshot.IsWritten)
             {
                 Terms.Walls()?.Barrier.SetTime(Time);
                 FollowEnds();
             }
-            if (!snapshot.Section(SectionKey, SerializeOwn))
+            if (!snapshot.Section(SectionKey, SerializeHistory))
             {
                 _energy.Start();
             }
             if (!snapshot.IsWritten)
             {
                 _scene.Joints.Begin(Shape, Time);
-            }
-        }
-
-        /// <summary>Writes or restores all that a step may touch, for a <see cref="StepStart"/>.
-        /// </summary>
-        public void SerializeStep(Snapshot snapshot)
-        {
-            Drive.SerializeStep(snapshot);
-            _dynamics.SerializeStep(snapshot);
-            _ends.SerializeStep(snapshot);
-            _energy.SerializeStep(snapshot);
-            _rest.Serialize(snapshot);
-            _extremes.Serialize(snapshot);
-            _extremes.SerializeDisplacements(snapshot);
-            _spinLoss?.Serialize(snapshot);
-            _monitor?.Serialize(snapshot);
-            _monitor?.SerializeWork(snapshot);
-            _slips?.Serialize(snapshot);
-            snapshot.Serialize(ref _hasSlipped);
-            snapshot.Serialize(ref _hubWork);
-            snapshot.Serialize(ref _outside);
-            Contacts?.Serialize(snapshot);
-            Contacts?.SerializeOptional(snapshot);
-            if (!snapshot.IsWritten)
-            {
-                (Failure, Divergence) = (null, null);
             }
         }
 
@@ -507,15 +486,48 @@ namespace Guidewire.Core
             : (Terms.Walls()!.HoldsStart ? "direct, walls" : "direct, walls, free")
             + Terms.Walls()!.Barrier.Fields.Key;
 
-        private void SerializeOwn(Snapshot snapshot)
+        // For a step.
+        private void SerializeRecords(Snapshot snapshot)
         {
-            SerializeWalls(snapshot);
+            Drive.Serialize(snapshot);
+            Drive.Hub.Serialize(snapshot, Time);
+            _ends.Serialize(snapshot);
+            _energy.Serialize(snapshot);
+            _rest.Serialize(snapshot);
+            _extremes.Serialize(snapshot);
+            _spinLoss?.Serialize(snapshot);
+            _monitor?.Serialize(snapshot);
+            _slips?.Serialize(snapshot);
+            snapshot.Serialize(ref _hasSlipped);
+            snapshot.Serialize(ref _hubWork);
+            snapshot.Serialize(ref _outside);
+            Contacts?.Serialize(snapshot);
+            if (!snapshot.IsWritten)
+            {
+                (Failure, Divergence) = (null, null);
+            }
+        }
+
+        // For a run.
+        private void SerializeHistory(Snapshot snapshot)
+        {
+            BarrierEnergy? barrier = Terms.Walls()?.Barrier;
+            if (barrier?.Fields.Carrier >= 0)
+            {
+                barrier.Fields.Serialize(snapshot, Time);
+                barrier.WallsMoved();
+                _monitor!.SerializeWork(snapshot);
+            }
             snapshot.Serialize(ref _startFactorisations);
             snapshot.Serialize(ref _hubWork);
             snapshot.Serialize(ref _outside);
             _results.Serialize(snapshot);
             snapshot.OptionalSection("spin", _spinLoss == null ? (Action<Snapshot>?)null : _spinLoss.Serialize);
-            snapshot.OptionalSection("slips", _slips == null ? (Action<Snapshot>?)null : SerializeSlips);
+            snapshot.OptionalSection("slips", _slips == null ? (Action<Snapshot>?)null : kept =>
+            {
+                _slips.Serialize(kept);
+                kept.Serialize(ref _hasSlipped);
+            });
             _energy.Serialize(snapshot);
             Drive.Serialize(snapshot);
             _dynamics.Clock.Serialize(snapshot);
@@ -525,23 +537,6 @@ namespace Guidewire.Core
             _ends.SerializeWork(snapshot);
             _rest.Serialize(snapshot);
             _dynamics.SerializeHistory(snapshot, _timeStep);
-        }
-
-        private void SerializeWalls(Snapshot snapshot)
-        {
-            BarrierEnergy? barrier = Terms.Walls()?.Barrier;
-            if (barrier?.Fields.Carrier >= 0)
-            {
-                barrier.Fields.Serialize(snapshot, Time);
-                barrier.WallsMoved();
-                _monitor!.SerializeWork(snapshot);
-            }
-        }
-
-        private void SerializeSlips(Snapshot snapshot)
-        {
-            _slips!.Serialize(snapshot);
-            snapshot.Serialize(ref _hasSlipped);
         }
 
         private void FollowEnds() => _ends.Follow(Shape, HubTurn, _dynamics.DistalTurn);

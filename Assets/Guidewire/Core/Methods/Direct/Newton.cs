@@ -284,7 +284,7 @@ namespace Guidewire.Core
             RodStep.Size(Direction, _rod.ElementCount, _totalLength, out relative, System.VectorCount);
 
         /// <summary>Writes or restores what the next stage depends on.</summary>
-        public void SerializeShift(Snapshot snapshot) => snapshot.Serialize(ref _shift);
+        public void Serialize(Snapshot snapshot) => snapshot.Serialize(ref _shift);
 
         /// <summary>Writes or restores the counts that a run reports, and between walls what serves a rod of other
         /// elements too.</summary>
@@ -295,7 +295,7 @@ namespace Guidewire.Core
             Searches = snapshot.Serialize(Searches);
             if (_walls != null)
             {
-                SerializeShift(snapshot);
+                Serialize(snapshot);
                 Iterations = snapshot.Serialize(Iterations);
             }
         }

@@ -100,15 +100,15 @@ namespace Guidewire.Core
         public override void Serialize(Snapshot snapshot)
         {
             MaterialSnapshot.Serialize(snapshot, Schedule, Shape, Velocities, Spins, ref _time);
-            Ends.SerializeTurns(snapshot);
-            if (!snapshot.Section("explicit", SerializeOwn))
+            Ends.Serialize(snapshot);
+            if (!snapshot.Section("explicit", SerializeHistory))
             {
                 Energy.Start();
             }
             BeginTurns(snapshot, _time);
         }
 
-        private void SerializeOwn(Snapshot snapshot)
+        private void SerializeHistory(Snapshot snapshot)
         {
             Terms.Serialize(snapshot);
             Energy.Serialize(snapshot);

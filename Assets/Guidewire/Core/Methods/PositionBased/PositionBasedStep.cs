@@ -76,7 +76,7 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public override void Serialize(Snapshot snapshot)
         {
-            SerializePredictionError(snapshot);
+            PredictionError = snapshot.Serialize(PredictionError);
             _monitor?.Serialize(snapshot);
             snapshot.OptionalSection("distal clamp", _drive is DistalClampDrive clamp ? clamp.Serialize : null);
             _solver.Serialize(snapshot);

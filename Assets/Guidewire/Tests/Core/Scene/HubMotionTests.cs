@@ -36,7 +36,11 @@ namespace Guidewire.Core.Tests
         public void DriveThatIsRestored_TakesItsHubBackToTheSameBits()
         {
             Scene scene = SteeredBy(new Steering { Push = 1.37, Turn = 0.3 }, out MaterialDrive drive);
-            var start = new StepStart(drive.SerializeStep);
+            var start = new StepStart(snapshot =>
+            {
+                drive.Serialize(snapshot);
+                drive.Hub.Serialize(snapshot, 0.0);
+            });
             drive.Prepare(scene.Shape, 0.0);
             start.Save();
             drive.Prepare(scene.Shape, Step);

@@ -198,44 +198,17 @@ namespace Guidewire.Core
             Whole.Contacts?.CopyFrom(former.Whole.Contacts!, Rod.Rod.ElementCount + 1);
         }
 
-        /// <summary>Writes or restores what says which elements there are.</summary>
-        public void SerializeNodes(Snapshot snapshot, ref int first)
+        /// <summary>Writes or restores which elements there are.</summary>
+        /// <param name="first">The first of them, as it was written.</param>
+        /// <returns>Whether those that there are have to be laid anew.</returns>
+        public bool SerializeNodes(Snapshot snapshot, ref int first)
         {
             if (_hasWindow)
             {
                 snapshot.Serialize(ref first);
                 snapshot.Serialize(ref _frameTurn);
             }
-            for (int i = 1; i < _drives.Length; i++)
-            {
-                snapshot.Serialize(ref _nodes.Beyond[i]);
-                snapshot.Serialize(ref _leads[i]);
-            }
-        }
-
-        /// <summary>Writes or restores its motion.</summary>
-        /// <param name="first">As it was written.</param>
-        /// <param name="time">The same, s.</param>
-        public void Serialize(Snapshot snapshot, int first, double time)
-        {
-            if (!snapshot.IsWritten)
-            {
-                _sheathed = _hubs.SheathedAt(time);
-                Lay(first, time);
-            }
-            SerializeAxial(snapshot);
-            Whole.Serialize(snapshot);
-            if (!snapshot.IsWritten)
-            {
-                TakeTime();
-            }
-        }
-
-        /// <summary>Keeps what was simulated when a step began, or goes back to it.</summary>
-        public void SerializeStep(Snapshot snapshot)
-        {
-            int first = snapshot.Serialize(Rod.Joints.First);
-            bool isOther = first != Rod.Joints.First;
+            bool isOther = !snapshot.IsStep || first != Rod.Joints.First;
             for (int i = 1; i < _drives.Length; i++)
             {
                 double lead = _leads[i];
@@ -243,23 +216,36 @@ namespace Guidewire.Core
                 snapshot.Serialize(ref _leads[i]);
                 isOther |= lead != _leads[i] || _nodes.Beyond[i] != Rod.Joints.BeyondOf(i);
             }
-            snapshot.Serialize(ref _sheathed);
-            snapshot.Serialize(ref _frameTurn);
-            if (isOther && !snapshot.IsWritten)
-            {
-                Lay(first, Dynamics.Time);
-            }
-            HoldFrame(Dynamics.Shape);
-            Whole.SerializeStep(snapshot);
-            SerializeAxial(snapshot);
+            return isOther && !snapshot.IsWritten;
         }
 
-        private void SerializeAxial(Snapshot snapshot)
+        /// <summary>Writes or restores its motion.</summary>
+        /// <param name="laidFrom">Its first element, where they have to be laid anew.</param>
+        /// <param name="time">As it was written, s.</param>
+        public void Serialize(Snapshot snapshot, int? laidFrom, double time)
         {
+            if (snapshot.IsStep)
+            {
+                snapshot.Serialize(ref _sheathed);
+            }
+            else if (!snapshot.IsWritten)
+            {
+                _sheathed = _hubs.SheathedAt(time);
+            }
+            if (laidFrom is int first)
+            {
+                Lay(first, time);
+            }
+            HoldFrame(Dynamics.Shape);
             Rod.Axial.Serialize(snapshot);
             if (!snapshot.IsWritten)
             {
                 Rod.SetLengths();
+            }
+            Whole.Serialize(snapshot);
+            if (!snapshot.IsWritten)
+            {
+                TakeTime();
             }
         }
 

@@ -96,33 +96,14 @@ namespace Guidewire.Core
         {
             double time = Dynamics.Time;
             int first = Chain.Rod.Joints.First;
-            Chain.SerializeNodes(snapshot, ref first);
+            bool isOther = Chain.SerializeNodes(snapshot, ref first);
             snapshot.Serialize(ref time);
             SerializeHubs(snapshot, time, 1);
-            Chain.Serialize(snapshot, first, time);
-            if (!snapshot.IsWritten)
+            Chain.Serialize(snapshot, isOther ? first : (int?)null, time);
+            if (!snapshot.IsWritten && !snapshot.IsStep)
             {
                 _order.LimitAlone(Dynamics.Time);
                 TakeShapes();
-            }
-        }
-
-        /// <inheritdoc/>
-        public override void SerializeStep(Snapshot snapshot)
-        {
-            for (int i = 1; i < Drives.Length; i++)
-            {
-                Drives[i].SerializeStep(snapshot);
-            }
-            foreach (HubSlip slip in Slips)
-            {
-                slip.SerializeStep(snapshot);
-            }
-            SerializeRecords(snapshot);
-            Chain.SerializeStep(snapshot);
-            if (!snapshot.IsWritten)
-            {
-                Chain.TakeTime();
             }
         }
 

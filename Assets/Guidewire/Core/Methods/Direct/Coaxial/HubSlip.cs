@@ -141,20 +141,18 @@ namespace Guidewire.Core
             Record.Record(IsLimited && _found.Slipped && _found.Moved != _found.Asked, force, time);
         }
 
-        /// <summary>Writes or restores what was found last, and what the steps had beyond the limit.</summary>
+        /// <summary>Writes or restores what was found in the step before, and in a run what the steps had beyond the
+        /// limit.</summary>
         public void Serialize(Snapshot snapshot)
-        {
-            SerializeStep(snapshot);
-            Record.Serialize(snapshot);
-        }
-
-        /// <summary>Writes or restores what was found in the step before, for a <see cref="StepStart"/>.</summary>
-        public void SerializeStep(Snapshot snapshot)
         {
             snapshot.Serialize(ref _foundBefore.Slipped);
             snapshot.Serialize(ref _foundBefore.Moved);
             snapshot.Serialize(ref _foundBefore.Around);
             snapshot.Serialize(ref _foundBefore.Asked);
+            if (!snapshot.IsStep)
+            {
+                Record.Serialize(snapshot);
+            }
         }
 
         // Where the force jumps past the limit, or a slip has a speed, as far as it is no more, or the least.

@@ -192,7 +192,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>Writes or restores what contacts keep from step to step.</summary>
-        public void SerializeAnchors(Snapshot snapshot)
+        public void SerializeHistory(Snapshot snapshot)
         {
             Dissipated = snapshot.Serialize(Dissipated);
             long count = snapshot.Serialize(_anchors.Count);

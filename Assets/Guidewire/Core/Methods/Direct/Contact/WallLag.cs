@@ -172,9 +172,9 @@ namespace Guidewire.Core
         private int Count => _time.Length * _nodes;
 
         /// <summary>Writes or restores it in a section in which it may be missing, or another wire's.</summary>
-        public static void SerializeOptional(WallLag? lag, Snapshot snapshot)
+        public static void Serialize(WallLag? lag, Snapshot snapshot)
         {
-            if (snapshot.IsWritten)
+            if (snapshot.IsWritten || snapshot.IsStep)
             {
                 lag?.Serialize(snapshot);
             }

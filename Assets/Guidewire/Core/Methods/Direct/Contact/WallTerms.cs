@@ -112,18 +112,6 @@ namespace Guidewire.Core
             Self?.DropGeometricStiffness(isOn);
         }
 
-        /// <summary>Writes or restores what contacts keep from step to step, for a <see cref="StepStart"/>.</summary>
-        public void SerializeStep(Snapshot snapshot)
-        {
-            Friction?.Anchors.Serialize(snapshot);
-            SelfFriction?.SerializeAnchors(snapshot);
-            Barrier.Lag?.Serialize(snapshot);
-            if (Barrier.Fields.Carrier >= 0)
-            {
-                Barrier.SetTime(snapshot.Serialize(Barrier.Fields.Time));
-            }
-        }
-
         /// <summary>The spring; without effect where nothing holds node 0.</summary>
         public SupportSpring Spring { get; }
 
@@ -153,17 +141,26 @@ namespace Guidewire.Core
 
         /// <summary>A reader between as many walls, of which one has friction, takes over what such a writer has; and
         /// how far walls lag behind, where both have such walls and as many elements.</summary>
-        public override void SerializeFriction(Snapshot snapshot)
+        public override void Serialize(Snapshot snapshot)
         {
-            string key = Friction == null ? "no friction" : "friction at " + Friction.Anchors.Count;
-            snapshot.Section(SelfFriction == null ? key : key + " and of the wire on itself",
-                snapshot =>
-                {
-                    Friction?.Anchors.Serialize(snapshot);
-                    SelfFriction?.SerializeAnchors(snapshot);
-                    WallLag.SerializeOptional(Barrier.Lag, snapshot);
-                });
+            if (!snapshot.IsStep)
+            {
+                string key = Friction == null ? "no friction" : "friction at " + Friction.Anchors.Count;
+                snapshot.Section(SelfFriction == null ? key : key + " and of the wire on itself", SerializeHistory);
+                return;
+            }
+            SerializeHistory(snapshot);
+            if (Barrier.Fields.Carrier >= 0)
+            {
+                Barrier.SetTime(snapshot.Serialize(Barrier.Fields.Time));
+            }
+        }
 
+        private void SerializeHistory(Snapshot snapshot)
+        {
+            Friction?.Anchors.Serialize(snapshot);
+            SelfFriction?.SerializeHistory(snapshot);
+            WallLag.Serialize(Barrier.Lag, snapshot);
         }
 
         /// <summary>Adds minus the force of the wire's strands on one another.</summary>

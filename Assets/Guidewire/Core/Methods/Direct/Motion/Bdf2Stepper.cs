@@ -53,21 +53,9 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public override void SerializeStep(Snapshot snapshot)
+        public override void Serialize(Snapshot snapshot)
         {
-            base.SerializeStep(snapshot);
-            SerializeOwn(snapshot);
-        }
-
-        /// <inheritdoc/>
-        public override void SerializeHistory(Snapshot snapshot, double time)
-        {
-            base.SerializeHistory(snapshot, time);
-            SerializeOwn(snapshot);
-        }
-
-        private void SerializeOwn(Snapshot snapshot)
-        {
+            base.Serialize(snapshot);
             _history.Serialize(snapshot);
             snapshot.Serialize(ref _lastStep);
         }

@@ -87,11 +87,15 @@ namespace Guidewire.Core
             set => _time = value;
         }
 
-        /// <summary>Writes or restores the turns.</summary>
+        /// <summary>Writes or restores the turns; for a step also their time.</summary>
         public void Serialize(Snapshot snapshot)
         {
             snapshot.Serialize(ref _proximal);
             snapshot.Serialize(ref _distal);
+            if (snapshot.IsStep)
+            {
+                Time = snapshot.Serialize(Time);
+            }
         }
     }
 

@@ -124,16 +124,13 @@ namespace Guidewire.Core
             return false;
         }
 
-        /// <summary>Writes or restores the count, and how long the next piece is.</summary>
+        /// <summary>Writes or restores how long the next piece is, and in a run the count.</summary>
         public void Serialize(Snapshot snapshot)
         {
-            Halvings = snapshot.Serialize(Halvings);
-            SerializeLength(snapshot);
-        }
-
-        /// <summary>Writes or restores how long the next piece is.</summary>
-        public void SerializeLength(Snapshot snapshot)
-        {
+            if (!snapshot.IsStep)
+            {
+                Halvings = snapshot.Serialize(Halvings);
+            }
             snapshot.Serialize(ref _size);
             snapshot.Serialize(ref _patience);
             snapshot.Serialize(ref _solved);

@@ -263,37 +263,30 @@ namespace Guidewire.Core
             return null;
         }
 
-        /// <summary>Writes or restores all that a step may touch, for a <see cref="StepStart"/>.</summary>
-        public void SerializeStep(Snapshot snapshot)
+        /// <summary>Writes or restores what stages leave to the next step; for a step also the motion and the terms,
+        /// which a run lists before.</summary>
+        public void Serialize(Snapshot snapshot)
         {
-            _motion.Serialize(snapshot);
-            Frames.Serialize(snapshot);
-            Frames.Time = snapshot.Serialize(Frames.Time);
-            foreach (EnergyTerm term in _terms.All)
+            if (snapshot.IsStep)
             {
-                term.Serialize(snapshot);
+                _motion.Serialize(snapshot);
+                Frames.Serialize(snapshot);
+                _terms.Serialize(snapshot);
             }
-            _terms.Walls()?.SerializeStep(snapshot);
-            SerializePast(snapshot);
-            Damping?.Serialize(snapshot);
-            Reactions.SerializeStep(snapshot);
-        }
-
-        /// <summary>Writes or restores what stages leave to the next step.</summary>
-        public void SerializeHistory(Snapshot snapshot)
-        {
-            SerializePast(snapshot);
-            Reactions.Serialize(snapshot);
-            snapshot.OptionalSection("damping", Damping == null ? null : Damping.Serialize);
-        }
-
-        private void SerializePast(Snapshot snapshot)
-        {
             Rates.Serialize(snapshot);
             _inertia.Serialize(snapshot);
             Inner.Serialize(snapshot);
-            Newton.SerializeShift(snapshot);
+            Newton.Serialize(snapshot);
             snapshot.Serialize(ref _hasPast);
+            Reactions.Serialize(snapshot);
+            if (snapshot.IsStep)
+            {
+                Damping?.Serialize(snapshot);
+            }
+            else
+            {
+                snapshot.OptionalSection("damping", Damping == null ? null : Damping.Serialize);
+            }
         }
 
         private void BeginDamping(double time)

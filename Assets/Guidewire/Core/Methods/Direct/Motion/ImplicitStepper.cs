@@ -51,11 +51,8 @@ namespace Guidewire.Core
         /// <returns>Null, or why a stage has no solution; the shape is then not to be used.</returns>
         public abstract string? Step(in Interval interval);
 
-        /// <summary>Writes or restores all that an interval may touch, for a <see cref="StepStart"/>.</summary>
-        public virtual void SerializeStep(Snapshot snapshot) => Stage.SerializeStep(snapshot);
-
-        /// <summary>Writes or restores, at a time, s, what went before the next step.</summary>
-        public virtual void SerializeHistory(Snapshot snapshot, double time) => Stage.SerializeHistory(snapshot);
+        /// <summary>Writes or restores what went before the next step.</summary>
+        public virtual void Serialize(Snapshot snapshot) => Stage.Serialize(snapshot);
     }
 
     /// <summary>How the accelerations of a stage are predicted: a_First + Fraction (a_Second - a_First).</summary>

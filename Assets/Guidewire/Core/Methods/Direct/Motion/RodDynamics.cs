@@ -18,6 +18,7 @@ namespace Guidewire.Core
         private readonly ImplicitStepper _stepper;
         private readonly ImplicitStage _stage;
         private readonly StepStart _start;   // of an interval
+        private double _intervalStart;       // s
         private readonly WorkLimit _work;
 
         /// <summary>Makes a rod at rest in this shape.</summary>
@@ -40,7 +41,7 @@ namespace Guidewire.Core
             MaxIterations = maxIterations;
             Newton.Tolerance = tolerance;
             Newton.Balance = tolerance / (2.0 * _stepper.WeightSum);
-            _start = new StepStart(SerializeInterval, terms.Rod);
+            _start = new StepStart(_stepper.Serialize, terms.Rod);
             _work = work ?? new WorkLimit(maxIterations);
             Clock = new Clock(_stepper, schedule, _work);
         }
@@ -167,6 +168,7 @@ namespace Guidewire.Core
             for (Interval interval = Clock.Next(); interval.Length > 0.0; interval = Clock.Next())
             {
                 _start.Save();
+                _intervalStart = Time;
                 while (true)
                 {
                     long factor = _terms.Walls() == null ? 1 : Clock.IterationFactor;
@@ -186,7 +188,7 @@ namespace Guidewire.Core
                     {
                         return Clock.Failure;
                     }
-                    _start.Restore();
+                    GoBack();
                     interval = Clock.Shorter;
                 }
                 IntervalDone?.Invoke();
@@ -195,12 +197,24 @@ namespace Guidewire.Core
         }
 
         /// <summary>Goes back to the start of the interval without a solution.</summary>
-        public void GoBack() => _start.Restore();
+        public void GoBack()
+        {
+            _start.Restore();
+            Time = _intervalStart;
+        }
 
-        /// <summary>Writes or restores where the rod is and how it moves: what a motion by any scheme goes on
-        /// from.</summary>
+        /// <summary>Writes or restores where the rod is and how it moves: what a motion by any scheme goes on from. For
+        /// a step it is all that <see cref="Step(double)"/> may touch.</summary>
         public void Serialize(Snapshot snapshot)
         {
+            if (snapshot.IsStep)
+            {
+                Control.Serialize(snapshot);
+                Clock.Serialize(snapshot);
+                Time = snapshot.Serialize(Time);
+                _stepper.Serialize(snapshot);
+                return;
+            }
             double time = Time;
             MaterialSnapshot.Serialize(snapshot, _schedule, Shape, Velocities, Spins, ref time);
             Time = time;
@@ -220,17 +234,7 @@ namespace Guidewire.Core
             _terms.Serialize(snapshot);
             SerializeCounts(snapshot);
             snapshot.Section(_stepper.Key + ", steps of " + dt.ToString("R", CultureInfo.InvariantCulture),
-                SerializeStages);
-        }
-
-        /// <summary>Writes or restores all that <see cref="Step(double)"/> may touch, for a <see cref="StepStart"/>.
-        /// </summary>
-        public void SerializeStep(Snapshot snapshot)
-        {
-            Control.SerializeCounts(snapshot);
-            Control.SerializeLength(snapshot);
-            Clock.SerializeLength(snapshot);
-            SerializeInterval(snapshot);
+                _stepper.Serialize);
         }
 
         /// <summary>Writes or restores what was counted.</summary>
@@ -239,13 +243,5 @@ namespace Guidewire.Core
             Newton.SerializeCounts(snapshot);
             Control.SerializeCounts(snapshot);
         }
-
-        private void SerializeInterval(Snapshot snapshot)
-        {
-            Time = snapshot.Serialize(Time);
-            _stepper.SerializeStep(snapshot);
-        }
-
-        private void SerializeStages(Snapshot snapshot) => _stepper.SerializeHistory(snapshot, Time);
     }
 }

@@ -139,13 +139,10 @@ namespace Guidewire.Core
             snapshot.Serialize(ref _hasStepped);
             snapshot.Serialize(Vector3d.Zero);    // a place that the format has
             _end.Serialize(snapshot);
-        }
-
-        /// <summary>Writes or restores all that a step may touch, for a <see cref="StepStart"/>.</summary>
-        public void SerializeStep(Snapshot snapshot)
-        {
-            Serialize(snapshot);
-            _mean.Serialize(snapshot);
+            if (snapshot.IsStep)
+            {
+                _mean.Serialize(snapshot);
+            }
         }
 
         // The gradient of terms: what the supports have to exert.

@@ -106,23 +106,19 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public override void SerializeStep(Snapshot snapshot)
+        public override void Serialize(Snapshot snapshot)
         {
-            base.SerializeStep(snapshot);
-            snapshot.Serialize(ref _hasRates);
+            base.Serialize(snapshot);
             snapshot.Serialize(ref _proximalVelocity);
             snapshot.Serialize(ref _distalVelocity);
-        }
-
-        /// <inheritdoc/>
-        public override void SerializeHistory(Snapshot snapshot, double time)
-        {
-            base.SerializeHistory(snapshot, time);
-            snapshot.Serialize(ref _proximalVelocity);
-            snapshot.Serialize(ref _distalVelocity);
-            Control.SerializeLength(snapshot);
+            if (snapshot.IsStep)
+            {
+                snapshot.Serialize(ref _hasRates);
+                return;
+            }
+            Control.Serialize(snapshot);
             // Rates are those of this rod under these loads; a reader on which other forces act starts again.
-            _terms.SetTime(_schedule, time);
+            _terms.SetTime(_schedule, Stage.Frames.Time);
             double own = _start.CheckSum(_motion.Shape);
             double sum = own;
             snapshot.Serialize(ref sum);

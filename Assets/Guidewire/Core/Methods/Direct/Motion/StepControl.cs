@@ -81,7 +81,14 @@ namespace Guidewire.Core
             StepsAbove = snapshot.Serialize(StepsAbove);
         }
 
-        /// <summary>Writes or restores the length of the next step.</summary>
-        public void SerializeLength(Snapshot snapshot) => snapshot.Serialize(ref _length);
+        /// <summary>Writes or restores the length of the next step; for a step also the counts.</summary>
+        public void Serialize(Snapshot snapshot)
+        {
+            if (snapshot.IsStep)
+            {
+                SerializeCounts(snapshot);
+            }
+            snapshot.Serialize(ref _length);
+        }
     }
 }

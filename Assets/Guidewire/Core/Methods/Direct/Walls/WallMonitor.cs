@@ -245,7 +245,7 @@ namespace Guidewire.Core
             return deepest;
         }
 
-        /// <summary>Writes or restores the passages so far.</summary>
+        /// <summary>Writes or restores the passages so far; for a step also the work of moving walls.</summary>
         public void Serialize(Snapshot snapshot)
         {
             _passages.Serialize(snapshot);
@@ -253,6 +253,10 @@ namespace Guidewire.Core
             if (_strands != null)
             {
                 _strands.Passages = strands;
+            }
+            if (snapshot.IsStep)
+            {
+                SerializeWork(snapshot);
             }
         }
 

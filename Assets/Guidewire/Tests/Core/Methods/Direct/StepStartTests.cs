@@ -115,7 +115,7 @@ namespace Guidewire.Core.Tests
             var random = new System.Random(3);
             (RodDynamics a, _) = Failing(RungeKuttaScheme.Esdirk3());
             (RodDynamics b, NotANumber poison) = Failing(RungeKuttaScheme.Esdirk3());
-            var start = new StepStart(b.SerializeStep);
+            var start = new StepStart(b.Serialize);
             int failed = 0;
             for (int k = 0; k < 30; k++)
             {
@@ -163,7 +163,7 @@ namespace Guidewire.Core.Tests
         public void KeepingAStep_LeavesNoGarbage()
         {
             (RodDynamics dynamics, _) = Failing(RungeKuttaScheme.Esdirk3());
-            var start = new StepStart(dynamics.SerializeStep);
+            var start = new StepStart(dynamics.Serialize);
             start.Save();
             Assert.That(Garbage.LeftBy(() =>
             {
@@ -219,7 +219,7 @@ namespace Guidewire.Core.Tests
         private static (Action<Snapshot> Exchange, Action Take) StepOf(MethodStart start)
         {
             var step = (DirectStep)start.Stepper;
-            return (step.SerializeStep, () => step.Advance(start.State));
+            return (step.Serialize, () => step.Advance(start.State));
         }
 
         private static MethodStart Start(SimulationParameters parameters) =>

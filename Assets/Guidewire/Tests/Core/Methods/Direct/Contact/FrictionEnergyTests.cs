@@ -175,7 +175,7 @@ namespace Guidewire.Core.Tests
                 new RodTerms(scene.Rod, scene.Supports, parameters.Scene, walls, Array.Empty<EnergyTerm>()));
             Rods.Step(motion, 1e-3, 5);
             double stored = walls.Friction!.Anchors.StoredEnergy;
-            var start = new StepStart(motion.SerializeStep);
+            var start = new StepStart(motion.Serialize);
             start.Save();
             Assert.That(motion.Step(1e-3), Is.Null);
             Assert.That(walls.Friction.Anchors.StoredEnergy, Is.Not.EqualTo(stored));
