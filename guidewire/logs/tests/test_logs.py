@@ -12,7 +12,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from analysis.tests.chain import Chain
-from guidewire.logs.logs import LogError, find_log, read_log
+from guidewire.logs.entries import arrays_of
+from guidewire.logs.logs import LogError, find_log, read_columns, read_log
 
 
 @pytest.fixture(scope="module")
@@ -51,6 +52,19 @@ def test_chosen_spheres_come_in_ascending_order(tmp_path: Path, chain: Chain) ->
     np.testing.assert_array_equal(log.sphere(2)[:, 2], chain.z[:, 2])
     with pytest.raises(LogError, match="sphere 3 was not read"):
         log.sphere(3)
+
+
+def test_columns_are_read_of_the_entries_that_are_asked_for(tmp_path: Path, chain: Chain) -> None:
+    path = write(tmp_path, chain.log())
+    steps = read_log(path).steps[[1, 3]]
+    columns = read_columns(path, ("step", "positions"), steps)
+    assert columns["step"].tolist() == steps.tolist()
+    np.testing.assert_array_equal(columns["positions"], read_columns(path, ("positions",))["positions"][[1, 3]])
+
+
+def test_null_is_no_number(chain: Chain) -> None:
+    entry = json.loads(chain.log())["3"]
+    assert np.isnan(arrays_of(3, {**entry, "delta": None})["delta"])
 
 
 def test_thinning_keeps_multiples_and_still_knows_the_end(tmp_path: Path, chain: Chain) -> None:

@@ -9,11 +9,12 @@ import time
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 from guidewire.sessions import session as sessions
 from guidewire.sessions import session_hosts
 from guidewire.sessions.session import Session, SessionError
-from guidewire.sessions.session_state import INSTRUMENTS, MOTION, STRAINS
+from guidewire.sessions.session_state import INSTRUMENTS, MOTION, STRAINS, directors_of
 
 
 class StandIn(session_hosts.Library):
@@ -57,6 +58,13 @@ def _stand_in(monkeypatch):
     host = StandIn()
     monkeypatch.setattr(sessions, "host_of", lambda native: host)
     return host
+
+
+def test_directors_are_the_axes_turned_by_their_quaternion():
+    random = np.random.default_rng(3).normal(size=(20, 4))
+    quaternions = random / np.linalg.norm(random, axis=1)[:, None]
+    expected = Rotation.from_quat(quaternions).as_matrix().transpose(0, 2, 1)
+    np.testing.assert_allclose(directors_of(quaternions), expected, atol=1e-14)
 
 
 def test_only_what_is_asked_for_is_read_and_once(stand_in):

@@ -6,6 +6,7 @@ import struct
 import numpy as np
 import pytest
 
+from guidewire.logs.logs import read_log
 from guidewire.logs.runs import read_run
 from guidewire.logs.surfaces import Surface, curvature
 from guidewire.runs.runner import Request
@@ -70,7 +71,12 @@ def test_a_diverged_run_replays_with_its_outcome_and_that_it_is_not_reliable(liv
     answer = live.run(Request("a", None, tmp_path / "run", {"stretchStiffness": 2.5, "displacementDirection": [0, 1, 0],
                                                             "maxSimulationSteps": 400}))
     assert answer.outcome == "diverged"
-    shown = read_recording(read_run(tmp_path / "run"), [], 10, {}, lambda positions: [])
+    run = read_run(tmp_path / "run")
+    shown = read_recording(run, [], 10, {}, lambda positions: [])
+    steps = {channel.name: channel for channel in shown.channels}["stepTime"]
+    log = read_log(run.folder)
+    assert steps.unit == "ms"
+    assert steps.values[-1] == pytest.approx(1e3 * (log.elapsed[-1] - log.elapsed[-2]))
     assert shown.outcome == f"diverged, not reliable: {answer.message}"
 
 
@@ -82,6 +88,15 @@ def test_what_colours_the_wire_is_its_own():
     lengths = np.linalg.norm(np.diff(channels["positions"].reshape(3, 13, 3), axis=1), axis=2)
     np.testing.assert_allclose(channels["twist"][:, 1:-1], 0.02 / (0.5 * (lengths[:, 1:] + lengths[:, :-1])))
     np.testing.assert_allclose(channels["tipz"][:, 0], 300.0)
+
+
+def test_the_sign_of_a_quaternion_does_not_twist_the_wire():
+    numbers = {"time": np.zeros(1), "step": np.zeros(1), "positions": np.cumsum(np.ones((1, 4, 3)), axis=1),
+               "orientations": np.array([[[0.0, 0.0, np.sin(half), np.cos(half)] for half in (0.0, 0.2, 0.1)]])}
+    once = {channel.name: channel.values for channel in make_channels(Units(None), numbers)}
+    numbers["orientations"][0, 1] *= -1.0
+    again = {channel.name: channel.values for channel in make_channels(Units(None), numbers)}
+    np.testing.assert_allclose(again["twist"], once["twist"], rtol=1e-12)
 
 
 def test_what_is_read_off_at_the_hub_is_shown_and_where_a_sheath_ends():

@@ -193,6 +193,9 @@ namespace Guidewire.Core.Tests
             var reader = new BendTwistEnergy<RotationVectorLaw>(joints, true, false, true);
             reader.Serialize(snapshot.ToRead());
             Assert.That(reader.Value(shape), Is.EqualTo(term.Value(shape)));
+            term.Remesh();
+            reader = new BendTwistEnergy<RotationVectorLaw>(joints, true, false, true);
+            Assert.That(term.TurnOf(shape, 0).Z, Is.EqualTo(reader.TurnOf(shape, 0).Z).And.LessThan(Math.PI));
         }
 
         [Test]
