@@ -11,8 +11,10 @@ namespace Guidewire.Core
     /// itself. A ring, whose ends are in one place, is closed there.
     ///
     /// Two elements a0 + s u and b0 + t v can meet only where (a0 - b0) . (u x v) is 0, a cubic in the time. With a
-    /// method that keeps strands apart a straight line may still cut a strand round which the wire snapped: there a
-    /// passage also has to change the writhe, by 2 (Fuller 1971).</remarks>
+    /// method that keeps strands apart a straight line may still cut a strand round which the wire snapped: there the
+    /// crossings of a passage have a sum that is not 0, and change the writhe by 2 (Fuller 1971); and where the wire
+    /// has moved farther than it is long from the crossing to its tip, a strand may as well have gone round the
+    /// tip.</remarks>
     internal sealed class StrandMonitor
     {
         private const double Touching = 1e-8;    // of the elements' lengths: a distance that is rounding
@@ -73,10 +75,18 @@ namespace Guidewire.Core
             double around = Vector3d.Distance(x[0], x[_count]) < _radius[0] ? _pairs.ArcOf(_count)
                 : double.PositiveInfinity;
             long crossed = 0;
+            int sum = 0;
+            int last = 0;
             for (int k = 0; k < _pairs.Pairs.Count; k++)
             {
                 (int i, int j) = (_pairs.Pairs[k].First, _pairs.Pairs[k].Second);
-                crossed += Crosses(_from, x, i, j) ? 1 : 0;
+                int crossing = Crosses(_from, x, i, j);
+                if (crossing % 2 != 0)
+                {
+                    crossed++;
+                    sum += crossing;
+                    last = Math.Max(last, j);
+                }
                 if (around - _pairs.ArcOf(j + 1) + _pairs.ArcOf(i) < Math.PI * _radius[i])
                 {
                     continue;
@@ -92,7 +102,7 @@ namespace Guidewire.Core
             }
             if (crossed > 0 && _keepsApart)
             {
-                crossed = Math.Abs(Writhe(x) - Writhe(_from)) > Jump ? 1 : 0;
+                crossed = sum != 0 && !IsRoundTip(x, last) && Math.Abs(Writhe(x) - Writhe(_from)) > Jump ? 1 : 0;
             }
             Passages += crossed;
             Begin(x);
@@ -106,6 +116,17 @@ namespace Guidewire.Core
             snapshot.Serialize(ref _time);
             snapshot.Serialize(ref _first);
             snapshot.Serialize(ref _second);
+        }
+
+        // Whether a node moved farther than the wire is long from this element to its tip.
+        private bool IsRoundTip(Vector3d[] x, int element)
+        {
+            double moved = 0.0;
+            for (int i = 0; i <= _count; i++)
+            {
+                moved = Math.Max(moved, Vector3d.Distance(_from[i], x[i]));
+            }
+            return moved > _pairs.ArcOf(_count) - _pairs.ArcOf(element);
         }
 
         // The double integral of Gauss over the polyline: the signed solid angles of all pairs of its elements.
@@ -129,8 +150,8 @@ namespace Guidewire.Core
         private static double HalfAngle(in Vector3d a, in Vector3d b, in Vector3d c) => Math.Atan2(
             Vector3d.Dot(a, Vector3d.Cross(b, c)), 1.0 + Vector3d.Dot(a, b) + Vector3d.Dot(b, c) + Vector3d.Dot(c, a));
 
-        // Whether elements j and k cross an odd number of times.
-        private static bool Crosses(Vector3d[] from, Vector3d[] to, int j, int k)
+        // How often elements j and k cross from one side, less how often from the other.
+        private static int Crosses(Vector3d[] from, Vector3d[] to, int j, int k)
         {
             Vector3d d = from[j] - from[k];
             Vector3d u = from[j + 1] - from[j];
@@ -146,7 +167,7 @@ namespace Guidewire.Core
             double c2 = Vector3d.Dot(d, n2) + Vector3d.Dot(dMove, n1);
             double c3 = Vector3d.Dot(dMove, n2);
             double At(double time) => c0 + time * (c1 + time * (c2 + time * c3));
-            bool crosses = false;
+            int crosses = 0;
             double begin = 0.0;
             double root = Math.Sqrt(Math.Max(0.0, c2 * c2 - 3.0 * c1 * c3));
             double q = -(c2 + (c2 < 0.0 ? -root : root));
@@ -164,7 +185,7 @@ namespace Guidewire.Core
                         double middle = 0.5 * (low + high);
                         (low, high) = At(middle) < 0.0 == At(begin) < 0.0 ? (middle, high) : (low, middle);
                     }
-                    crosses ^= Touch(from, to, j, k, high);
+                    crosses += !Touch(from, to, j, k, high) ? 0 : At(end) < 0.0 ? -1 : 1;
                 }
                 begin = turning > begin && turning < 1.0 ? turning : begin;
             }

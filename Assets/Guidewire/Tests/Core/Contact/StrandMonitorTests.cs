@@ -104,6 +104,17 @@ namespace Guidewire.Core.Tests
             Assert.That(passages.Passages, Is.EqualTo(expected));
         }
 
+        // From the crossing to the tip the wire is 1.9 long: a strand that goes farther may have gone round the tip.
+        [TestCase(0.0, 1)]
+        [TestCase(1.5, 1)]
+        [TestCase(2.5, 0)]
+        public void StrandsThatAreKeptApart_HavePassed_WhereTheyCannotHaveGoneRoundTheTip(double away, long expected)
+        {
+            StrandMonitor passages = Passages(Loop(0.3, 0.05), keepsApart: true);
+            passages.Follow(Array.ConvertAll(Loop(0.3, -0.05), x => x + away * Vector3d.UnitX), 0.0);
+            Assert.That(passages.Passages, Is.EqualTo(expected));
+        }
+
         [Test]
         public void ThereAndBackWithinALook_IsNoPassage_AndEachWayIsOne()
         {
@@ -151,7 +162,7 @@ namespace Guidewire.Core.Tests
         private static RunWarning? Warning(StrandMonitor monitor) => monitor.WarningOf("the wire");
 
         // Of an instrument of radius 0.05 that starts so.
-        private static StrandMonitor Passages(Vector3d[] start)
+        private static StrandMonitor Passages(Vector3d[] start, bool keepsApart = false)
         {
             int n = start.Length - 1;
             var radii = new double[n];
@@ -161,7 +172,7 @@ namespace Guidewire.Core.Tests
             {
                 length[j] = Vector3d.Distance(start[j], start[j + 1]);
             }
-            var monitor = new StrandMonitor(length, radii, n);
+            var monitor = new StrandMonitor(length, radii, n, keepsApart);
             monitor.Begin(start);
             return monitor;
         }
