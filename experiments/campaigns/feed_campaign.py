@@ -26,7 +26,7 @@ from experiments.campaigns.push_claims import RIM
 from experiments.campaigns.results import Record
 from experiments.campaigns.runs import close, fill, folder_of, parser_of, played
 from guidewire.logs.logs import read_log
-from guidewire.logs.strands import link, passages
+from guidewire.logs.strands import Passage, link, passages
 from guidewire.runs import building
 from guidewire.runs.runner import Request, Runner
 from tools.seeds import red
@@ -36,6 +36,7 @@ NODES = 160
 WITHDRAWN = 3  # of so many seeds one is drawn back
 SAME_LINK = 0.05  # turns: what friction may keep of a twist; a strand that passed another leaves 1 or more
 _TIME_STEP = 0.05  # s
+_FINER = 10  # steps for one, where a passage is to be told from a snap
 _STRAIGHT = 0.9  # cosine of the wire's end, before its bent tip, to its start: one that is folded back has no link
 
 
@@ -131,6 +132,8 @@ def make(runner: Runner, seed: int, folder: Path) -> Feed:
     walls = Walls.of(scene, triangles_of(scene, folder))
     claims = material_claims.violations(scene, summary, positions, np.full(NODES, 1e3 * scene["wireRadius"]), walls)
     passed = passages(positions)
+    if not all(one.may_be_round_the_tip for one in passed):
+        passed = _finer(runner, seed, scene, folder)
     claims += [f"strand through strand in entry {one.entry}, elements {one.elements}" for one in passed
                if not one.may_be_round_the_tip]
     change = None
@@ -146,6 +149,15 @@ def make(runner: Runner, seed: int, folder: Path) -> Feed:
                if not any(words in warning for words in (*OF_ENDS, RIM))]
     return Feed(seed, kind, claims, seconds, answer.outcome, summary["reason"], summary["solver"]["factorisations"],
                 sum(one.may_be_round_the_tip for one in passed), change)
+
+
+def _finer(runner: Runner, seed: int, scene: dict[str, Any], folder: Path) -> list[Passage]:
+    """Passages of the same feed in steps of a tenth: in a snap the wire moves farther than lines can follow."""
+    path, out = folder / f"feed-{seed}.finer.json", folder / f"run-{seed}-finer"
+    finer = {key: scene[key] / _FINER for key in ("timeStep", "displacementPerStep") if key in scene}
+    path.write_text(json.dumps(scene | finer | {"maxSimulationSteps": _FINER * scene["maxSimulationSteps"]}))
+    runner.run(Request(f"{seed}-finer", path, out), RUN_LIMIT)
+    return passages(read_log(out, spheres="all").positions)
 
 
 def main(arguments: Sequence[str]) -> int:
