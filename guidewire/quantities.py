@@ -72,13 +72,14 @@ def to_markdown() -> str:
 
 
 def _to_markdown(rows: tuple[Quantity, ...]) -> str:
-    lines = ["| array | shape | unit | in logs with | json log | summary.json | meaning |", "|---" * 7 + "|"]
+    table = [("array", "shape", "unit", "in", "key in JSON", "meaning")]
     for row in rows:
         shape = ", ".join(part for part in (_SHAPES[row.place], str(row.width) if row.width > 1 else "") if part)
         switch = _SWITCHES.get(row.switch, f"`log{row.switch.title()}`")
-        places = (None if row.key is None else f"{row.group}.{row.key}" if row.group else row.key,
-                  f"{row.group}.{row.summary}" if row.summary else None)
-        cells = [f"`{row.name}`", shape, "-" if row.unit == "1" else row.unit, switch,
-                 *(f"`{place}`" if place else "" for place in places), row.help]
-        lines.append("| " + " | ".join(cells) + " |")
-    return "\n".join(lines)
+        places = ", ".join(part for part in (switch, "summary" if row.summary else "") if part)
+        key = row.summary if row.key is None else row.key
+        path = "" if key is None else f"`{row.group}.{key}`" if row.group else f"`{key}`"
+        table.append((f"`{row.name}`", shape, "-" if row.unit == "1" else row.unit, places, path, row.help))
+    columns = [column for column in zip(*table) if any(column[1:])]
+    lines = ["| " + " | ".join(cells) + " |" for cells in zip(*columns)]
+    return "\n".join([lines[0], "|---" * len(columns) + "|", *lines[1:]])

@@ -4,7 +4,7 @@ using Guidewire.Io;
 
 namespace Guidewire.Unity.Tests
 {
-    /// <summary>The lines of plain C# in docs/unity.md, as they stand there.</summary>
+    /// <summary>The lines of plain C# in docs/unity.md and in the manual, as they stand there.</summary>
     public sealed class PlainCodeTests
     {
         // A closed box from -100 to 100 along z.
@@ -70,15 +70,15 @@ namespace Guidewire.Unity.Tests
             Assert.That(File.ReadAllText(Path.Combine(folder, "positions.json")), Does.Contain("20"));
         }
 
-        [TestCase("begin", 11)]
-        [TestCase("five", 5)]
-        public void ThePageShowsTheLines(string marker, int count)
+        [TestCase("begin", 11, "docs/unity.md")]
+        [TestCase("five", 5, "Assets/Guidewire/Documentation~/index.md")]
+        public void ThePageShowsTheLines(string marker, int count, string page)
         {
             string own = File.ReadAllText(Path.Combine(Stage.Root, "headless/Guidewire.Unity.Tests/PlainCodeTests.cs"));
             string[] lines = own.Split('\n').SkipWhile(line => line.Trim() != "// " + marker).Skip(1)
                 .TakeWhile(line => line.Trim() != "// end").Select(line => line.Trim()).ToArray();
             Assert.That(lines.Length, Is.EqualTo(count));
-            Assert.That(File.ReadAllText(Path.Combine(Stage.Root, "docs/unity.md")),
+            Assert.That(File.ReadAllText(Path.Combine(Stage.Root, page)),
                 Does.Contain(string.Join("\n", lines)));
         }
     }

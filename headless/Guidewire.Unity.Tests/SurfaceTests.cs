@@ -61,14 +61,5 @@ namespace Guidewire.Unity.Tests
                 }
             }
         }
-
-        [Test]
-        public void ThePageShowsTheSample()
-        {
-            string page = File.ReadAllText(Path.Combine(Stage.Root, "docs", "unity.md"));
-            string sample = File.ReadAllText(Path.Combine(Stage.Root,
-                "Assets/Guidewire/Samples~/OwnVessel/OwnWire.cs"));
-            Assert.That(page, Does.Contain(sample));
-        }
     }
 }
