@@ -15,6 +15,7 @@ namespace Guidewire.Core
         private const int MaxCuts = 64;
         private const int MaxAdvances = 16;
         private const double MinAdvance = 0.01;    // of what is proven
+        private const double SameDepth = 1e3;      // times the resolution, up to which two pieces' terms are one
         private readonly Vector3d[] _knots;
         private readonly double[] _radii;
         private readonly TubeTree _tree;
@@ -225,8 +226,8 @@ namespace Guidewire.Core
             return distance;
         }
 
-        /// <summary>The creases at its knots; see <see cref="TubeCreases"/>. Where the segment crosses from one leg of
-        /// the tube to another the contact has no weight: the wire stops there without a force.</summary>
+        /// <summary>The creases at its knots, see <see cref="TubeCreases"/>, and where pieces meet that are not next to
+        /// each other the one that is nearest to the wall.</summary>
         internal override void FindEdgeContacts(in Vector3d a, in Vector3d b, double range, FeatureRange features,
             StructList<EdgeContact> edgeContacts)
         {
@@ -236,7 +237,7 @@ namespace Guidewire.Core
             {
                 return;
             }
-            // A crease in the lumen of another leg is none.
+            // A crease in the lumen of another piece is none.
             int left = from;
             for (int k = from; k < edgeContacts.Count; k++)
             {
@@ -252,11 +253,39 @@ namespace Guidewire.Core
             int piece = FindLeast(a, b, 0, range, out double s, out double distance);
             if (s > 0.0 && s < 1.0 && distance < range)
             {
-                Vector3d x = Vector3d.Lerp(a, b, s);
-                _tree.Pieces[piece].Distance(x, out Vector3d centre, out _);
-                edgeContacts.Add(new EdgeContact(s, distance, Vector3d.Normalize(centre - x), 0.0, Vector3d.Zero,
-                    Vector3d.Zero, 1.0, 0.0));
+                edgeContacts.Add(Meeting(a, b, s, distance, range, piece, features));
             }
+        }
+
+        // Where pieces meet that are not next to each other: before it the one is the deepest whose term falls most
+        // along the segment, behind it the one whose term rises most. Without a weight the wire stops there without a
+        // force.
+        private EdgeContact Meeting(in Vector3d a, in Vector3d b, double s, double distance, double range, int piece,
+            FeatureRange features)
+        {
+            Vector3d x = Vector3d.Lerp(a, b, s);
+            (int first, int second) = (piece, piece);
+            double falls = double.PositiveInfinity;
+            double rises = double.NegativeInfinity;
+            int count = features.IsKnown ? features.To - features.From : _tree.Pieces.Length;
+            for (int k = 0; k < count; k++)
+            {
+                int own = features.IsKnown ? features[features.From + k] : k;
+                if (_tree.Pieces[own].Distance(x, out Vector3d centre, out _) < distance - SameDepth * _tree.Resolution)
+                {
+                    continue;
+                }
+                double slope = Vector3d.Dot(Vector3d.Normalize(centre - x), b - a);
+                (falls, first) = slope < falls ? (slope, own) : (falls, first);
+                (rises, second) = slope > rises ? (slope, own) : (rises, second);
+            }
+            if (EdgeContacts.FindBetween(first, second, a, b, s, range, out EdgeContact contact))
+            {
+                return contact;
+            }
+            _tree.Pieces[piece].Distance(x, out Vector3d middle, out _);
+            return new EdgeContact(s, distance, Vector3d.Normalize(middle - x), 0.0, Vector3d.Zero, Vector3d.Zero, 1.0,
+                0.0);
         }
 
         private void FindCreases(in Vector3d a, in Vector3d b, double range, FeatureRange features,
@@ -303,7 +332,7 @@ namespace Guidewire.Core
 
         private TubeCcd Ccd => _ccd ??= new TubeCcd(_tree.Pieces, Planes);
 
-        private TubeOverlaps Overlaps => _overlaps ??= new TubeOverlaps(_knots, _radii);
+        private TubeOverlaps Overlaps => _overlaps ??= new TubeOverlaps(_knots, _radii, _tree);
 
         private TubePlanes Planes => _planes ??= new TubePlanes(_knots);
 
