@@ -119,10 +119,9 @@ namespace Guidewire.Core
 
         /// <summary>The contact where a segment goes from one piece to another, which need not be the next one; false
         /// where it does not, or beyond the range.</summary>
-        /// <param name="first">The piece in which a is deeper than in the other one.</param>
-        /// <param name="s">Where it does so, about.</param>
-        public bool FindBetween(int first, int second, in Vector3d a, in Vector3d b, double s, double range,
-            out EdgeContact contact)
+        /// <param name="s">Where it does so at least, about, and at most.</param>
+        public bool FindBetween(int first, int second, in Vector3d a, in Vector3d b,
+            (double Least, double About, double Most) s, double range, out EdgeContact contact)
         {
             contact = default;
             if (!Cross(first, second, a, b, s, out Crossing c) || c.Distance > range)
@@ -188,16 +187,17 @@ namespace Guidewire.Core
         }
 
         // Where f1 - f2 goes from positive to negative along the segment, by Newton's method between bounds.
-        private bool Cross(int first, int second, in Vector3d a, in Vector3d b, double s, out Crossing at)
+        private bool Cross(int first, int second, in Vector3d a, in Vector3d b,
+            (double Least, double About, double Most) within, out Crossing at)
         {
             at = default;
-            if (!(Difference(first, second, a) > 0.0 && Difference(first, second, b) < 0.0))
+            (double low, double s, double high) = within;
+            if (!(Difference(first, second, Vector3d.Lerp(a, b, low)) > 0.0
+                && Difference(first, second, Vector3d.Lerp(a, b, high)) < 0.0))
             {
                 return false;
             }
             Vector3d u = b - a;
-            double low = 0.0;
-            double high = 1.0;
             double resolution = 1e-15 * (_radii[second] + a.Length);
             for (int i = 0; i < MaxIterations; i++)
             {
@@ -223,8 +223,8 @@ namespace Guidewire.Core
         }
 
         // Near the crossing: in the plane that halves the bend.
-        private static double AtPlane(double pastA, double pastB) =>
-            pastA < 0.0 && pastB > 0.0 ? pastA / (pastA - pastB) : 0.5;
+        private static (double, double, double) AtPlane(double pastA, double pastB) =>
+            (0.0, pastA < 0.0 && pastB > 0.0 ? pastA / (pastA - pastB) : 0.5, 1.0);
 
         // Whether a segment that may cross certainly does so beyond the range, or in the ball of the knot, where there
         // is no crease: it crosses within the slack of the plane, and a piece's term has a slope of 1 at most.

@@ -15,7 +15,6 @@ namespace Guidewire.Core
         private const int MaxCuts = 64;
         private const int MaxAdvances = 16;
         private const double MinAdvance = 0.01;    // of what is proven
-        private const double SameDepth = 1e3;      // times the resolution, up to which two pieces' terms are one
         private readonly Vector3d[] _knots;
         private readonly double[] _radii;
         private readonly TubeTree _tree;
@@ -226,78 +225,51 @@ namespace Guidewire.Core
             return distance;
         }
 
-        /// <summary>The creases at its knots, see <see cref="TubeCreases"/>, and where pieces meet that are not next to
-        /// each other the one that is nearest to the wall.</summary>
+        /// <summary>The creases at its knots, see <see cref="TubeCreases"/>; where pieces overlap those between the pieces
+        /// that are the deepest one after another along the segment.</summary>
         internal override void FindEdgeContacts(in Vector3d a, in Vector3d b, double range, FeatureRange features,
             StructList<EdgeContact> edgeContacts)
         {
-            int from = edgeContacts.Count;
-            FindCreases(a, b, range, features, edgeContacts);
-            if (!Overlaps.Has(features))
+            if (Overlaps.Has(features))
             {
-                return;
+                int first = _tree.Deepest(a, features.IsKnown ? features[features.From] : 0, out double atA);
+                int last = _tree.Deepest(b, first, out double atB);
+                AddMeetings(a, b, new TubePoint(0.0, atA, first), new TubePoint(1.0, atB, last), range, 0,
+                    edgeContacts);
             }
-            // A crease in the lumen of another piece is none.
-            int left = from;
-            for (int k = from; k < edgeContacts.Count; k++)
-            {
-                EdgeContact crease = edgeContacts[k];
-                _tree.Deepest(Vector3d.Lerp(a, b, crease.Position), 0, out double depth);
-                if (depth <= crease.Distance + _tree.Resolution)
-                {
-                    edgeContacts[left++] = crease;
-                    range = Math.Min(range, crease.Distance - _tree.Resolution);
-                }
-            }
-            edgeContacts.Truncate(left);
-            int piece = FindLeast(a, b, 0, range, out double s, out double distance);
-            if (s > 0.0 && s < 1.0 && distance < range)
-            {
-                edgeContacts.Add(Meeting(a, b, s, distance, range, piece, features));
-            }
-        }
-
-        // Where pieces meet that are not next to each other: before it the one is the deepest whose term falls most
-        // along the segment, behind it the one whose term rises most. Without a weight the wire stops there without a
-        // force.
-        private EdgeContact Meeting(in Vector3d a, in Vector3d b, double s, double distance, double range, int piece,
-            FeatureRange features)
-        {
-            Vector3d x = Vector3d.Lerp(a, b, s);
-            (int first, int second) = (piece, piece);
-            double falls = double.PositiveInfinity;
-            double rises = double.NegativeInfinity;
-            int count = features.IsKnown ? features.To - features.From : _tree.Pieces.Length;
-            for (int k = 0; k < count; k++)
-            {
-                int own = features.IsKnown ? features[features.From + k] : k;
-                if (_tree.Pieces[own].Distance(x, out Vector3d centre, out _) < distance - SameDepth * _tree.Resolution)
-                {
-                    continue;
-                }
-                double slope = Vector3d.Dot(Vector3d.Normalize(centre - x), b - a);
-                (falls, first) = slope < falls ? (slope, own) : (falls, first);
-                (rises, second) = slope > rises ? (slope, own) : (rises, second);
-            }
-            if (EdgeContacts.FindBetween(first, second, a, b, s, range, out EdgeContact contact))
-            {
-                return contact;
-            }
-            _tree.Pieces[piece].Distance(x, out Vector3d middle, out _);
-            return new EdgeContact(s, distance, Vector3d.Normalize(middle - x), 0.0, Vector3d.Zero, Vector3d.Zero, 1.0,
-                0.0);
-        }
-
-        private void FindCreases(in Vector3d a, in Vector3d b, double range, FeatureRange features,
-            StructList<EdgeContact> edgeContacts)
-        {
-            if (features.IsKnown)
+            else if (features.IsKnown)
             {
                 EdgeContacts.Find(a, b, range, features, edgeContacts);
             }
             else
             {
                 EdgeContacts.Find(a, b, range, edgeContacts);
+            }
+        }
+
+        // With slope at most 1, d is nowhere below (d0 + d1 - length)/2.
+        private void AddMeetings(in Vector3d a, in Vector3d b, in TubePoint from, in TubePoint to, double range,
+            int cuts, StructList<EdgeContact> edgeContacts)
+        {
+            double length = (to.S - from.S) * Vector3d.Distance(a, b);
+            if (from.Piece == to.Piece || 0.5 * (from.Distance + to.Distance - length) > range || cuts == MaxCuts)
+            {
+                return;
+            }
+            double middle = _tree.Crossing(a, b, from, to);
+            Vector3d x = Vector3d.Lerp(a, b, middle);
+            int deepest = _tree.Deepest(x, from.Piece, out double depth);
+            double crossing = Math.Max(_tree.Pieces[from.Piece].Distance(x), _tree.Pieces[to.Piece].Distance(x));
+            if (depth > crossing + _tree.Resolution)
+            {
+                var cut = new TubePoint(middle, depth, deepest);
+                AddMeetings(a, b, from, cut, range, cuts + 1, edgeContacts);
+                AddMeetings(a, b, cut, to, range, cuts + 1, edgeContacts);
+            }
+            else if (EdgeContacts.FindBetween(from.Piece, to.Piece, a, b, (from.S, middle, to.S), range,
+                out EdgeContact contact))
+            {
+                edgeContacts.Add(contact);
             }
         }
 
