@@ -234,8 +234,14 @@ namespace Guidewire.Core
             {
                 int first = _tree.Deepest(a, features.IsKnown ? features[features.From] : 0, out double atA);
                 int last = _tree.Deepest(b, first, out double atB);
-                AddMeetings(a, b, new TubePoint(0.0, atA, first), new TubePoint(1.0, atB, last), range, 0,
-                    edgeContacts);
+                var start = new TubePoint(0.0, first <= last ? atA : atB, Math.Min(first, last));
+                var end = new TubePoint(1.0, first <= last ? atB : atA, Math.Max(first, last));
+                int from = edgeContacts.Count;
+                AddMeetings(first <= last ? a : b, first <= last ? b : a, start, end, range, 0, edgeContacts);
+                for (int k = from; k < edgeContacts.Count && first > last; k++)
+                {
+                    edgeContacts[k] = edgeContacts[k].Reversed();
+                }
             }
             else if (features.IsKnown)
             {
@@ -247,7 +253,7 @@ namespace Guidewire.Core
             }
         }
 
-        // With slope at most 1, d is nowhere below (d0 + d1 - length)/2.
+        // In the direction of the tube. With slope at most 1, d is nowhere below (d0 + d1 - length)/2.
         private void AddMeetings(in Vector3d a, in Vector3d b, in TubePoint from, in TubePoint to, double range,
             int cuts, StructList<EdgeContact> edgeContacts)
         {
