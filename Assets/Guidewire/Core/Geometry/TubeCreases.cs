@@ -117,11 +117,27 @@ namespace Guidewire.Core
             }
         }
 
+        /// <summary>The contact where a segment goes from one piece to another, which need not be the next one; false
+        /// where it does not, or beyond the range.</summary>
+        /// <param name="s">Where it does so at least, about, and at most.</param>
+        public bool FindBetween(int first, int second, in Vector3d a, in Vector3d b,
+            (double Least, double About, double Most) s, double range, out EdgeContact contact)
+        {
+            contact = default;
+            if (!Cross(first, second, a, b, s, out Crossing c) || c.Distance > range)
+            {
+                return false;
+            }
+            contact = ContactAt(first, second, b - a, c);
+            return true;
+        }
+
         private double DistanceAt(int k, in Vector3d a, in Vector3d b, double pastA, double pastB)
         {
             double size = Vector3d.Distance(a, b);
-            return (MayCross(k, a, pastA, pastB, size) && Cross(k, a, b, pastA, pastB, out Crossing crossing))
-                || (MayCross(k, b, pastB, pastA, size) && Cross(k, b, a, pastB, pastA, out crossing))
+            return (MayCross(k, a, pastA, pastB, size)
+                    && Cross(k - 1, k, a, b, AtPlane(pastA, pastB), out Crossing crossing))
+                || (MayCross(k, b, pastB, pastA, size) && Cross(k - 1, k, b, a, AtPlane(pastB, pastA), out crossing))
                 ? crossing.Distance : double.PositiveInfinity;
         }
 
@@ -129,12 +145,12 @@ namespace Guidewire.Core
             out EdgeContact contact)
         {
             contact = default;
-            if (IsFar(k, a, b, pastA, pastB, range) || !Cross(k, a, b, pastA, pastB, out Crossing c)
-                || c.Distance > range)
-            {
-                return false;
-            }
-            Vector3d u = b - a;
+            return !IsFar(k, a, b, pastA, pastB, range)
+                && FindBetween(k - 1, k, a, b, AtPlane(pastA, pastB), range, out contact);
+        }
+
+        private EdgeContact ContactAt(int before, int after, in Vector3d u, in Crossing c)
+        {
             Vector3d m = c.First - c.Second;
             double along = Vector3d.Dot(m, u);
             Vector3d normal = (1.0 / along) * (Vector3d.Dot(c.First, u) * c.Second
@@ -142,8 +158,8 @@ namespace Guidewire.Core
             double s = c.Position;
             double weight = m.Length;
             Vector3d e = m / weight;
-            Symmetric3 first = c.Curvature(_knots, k - 1, c.First, c.FirstCentre, c.FirstIsRound);
-            Symmetric3 second = c.Curvature(_knots, k, c.Second, c.SecondCentre, c.SecondIsRound);
+            Symmetric3 first = c.Curvature(_knots, before, c.First, c.FirstCentre, c.FirstIsRound);
+            Symmetric3 second = c.Curvature(_knots, after, c.Second, c.SecondCentre, c.SecondIsRound);
             Vector3d turn = first.Times(e) - second.Times(e);
             // Along the crossing's own motion dx + u ds.
             Vector3d slope = turn - (Vector3d.Dot(turn, u) / along) * m;
@@ -158,9 +174,8 @@ namespace Guidewire.Core
             }
             double fraction = Vector3d.Dot(c.First, u) / along;
             Vector3d slide = (-1.0 / along) * m;
-            contact = new EdgeContact(s, c.Distance, normal, weight, (1.0 - s) * slope, s * slope, 1.0, 0.0).Sliding(
+            return new EdgeContact(s, c.Distance, normal, weight, (1.0 - s) * slope, s * slope, 1.0, 0.0).Sliding(
                 (1.0 - s) * slide, s * slide, (1.0 - fraction) * first + fraction * second);
-            return true;
         }
 
         // No crossing is farther from the knot than its crease, nor from a than b is; and it goes from one side of the
@@ -172,22 +187,21 @@ namespace Guidewire.Core
         }
 
         // Where f1 - f2 goes from positive to negative along the segment, by Newton's method between bounds.
-        private bool Cross(int k, in Vector3d a, in Vector3d b, double pastA, double pastB, out Crossing at)
+        private bool Cross(int first, int second, in Vector3d a, in Vector3d b,
+            (double Least, double About, double Most) within, out Crossing at)
         {
             at = default;
-            if (!(Difference(k, a) > 0.0 && Difference(k, b) < 0.0))
+            (double low, double s, double high) = within;
+            if (!(Difference(first, second, Vector3d.Lerp(a, b, low)) > 0.0
+                && Difference(first, second, Vector3d.Lerp(a, b, high)) < 0.0))
             {
                 return false;
             }
             Vector3d u = b - a;
-            double low = 0.0;
-            double high = 1.0;
-            // Near the crossing: in the plane that halves the bend.
-            double s = pastA < 0.0 && pastB > 0.0 ? pastA / (pastA - pastB) : 0.5;
-            double resolution = 1e-15 * (_radii[k] + a.Length);
+            double resolution = 1e-15 * (_radii[second] + a.Length);
             for (int i = 0; i < MaxIterations; i++)
             {
-                at = new Crossing(_pieces[k - 1], _pieces[k], Vector3d.Lerp(a, b, s), s);
+                at = new Crossing(_pieces[first], _pieces[second], Vector3d.Lerp(a, b, s), s);
                 if (Math.Abs(at.Difference) <= resolution)
                 {
                     break;
@@ -205,8 +219,12 @@ namespace Guidewire.Core
             }
             // In the ball of the knot there is no crease.
             Vector3d m = at.First - at.Second;
-            return Vector3d.Dot(m, u) < 0.0 && m.Length > MinAngle && at.Distance > -_radii[k];
+            return Vector3d.Dot(m, u) < 0.0 && m.Length > MinAngle && at.Distance > -_radii[second];
         }
+
+        // Near the crossing: in the plane that halves the bend.
+        private static (double, double, double) AtPlane(double pastA, double pastB) =>
+            (0.0, pastA < 0.0 && pastB > 0.0 ? pastA / (pastA - pastB) : 0.5, 1.0);
 
         // Whether a segment that may cross certainly does so beyond the range, or in the ball of the knot, where there
         // is no crease: it crosses within the slack of the plane, and a piece's term has a slope of 1 at most.
@@ -222,7 +240,8 @@ namespace Guidewire.Core
                 || (_pieces[k - 1].IsPast(x, slack) && _pieces[k].IsBefore(x, slack));
         }
 
-        private double Difference(int k, in Vector3d x) => _pieces[k - 1].Distance(x) - _pieces[k].Distance(x);
+        private double Difference(int first, int second, in Vector3d x) =>
+            _pieces[first].Distance(x) - _pieces[second].Distance(x);
 
         // Both pieces' terms at a point of the segment.
         private readonly struct Crossing

@@ -225,50 +225,57 @@ namespace Guidewire.Core
             return distance;
         }
 
-        /// <summary>The creases at its knots; see <see cref="TubeCreases"/>. Where the segment crosses from one leg of
-        /// the tube to another the contact has no weight: the wire stops there without a force.</summary>
+        /// <summary>The creases at its knots, see <see cref="TubeCreases"/>; where pieces overlap those between the pieces
+        /// that are the deepest one after another along the segment.</summary>
         internal override void FindEdgeContacts(in Vector3d a, in Vector3d b, double range, FeatureRange features,
             StructList<EdgeContact> edgeContacts)
         {
-            int from = edgeContacts.Count;
-            FindCreases(a, b, range, features, edgeContacts);
-            if (!Overlaps.Has(features))
+            if (Overlaps.Has(features))
             {
-                return;
-            }
-            // A crease in the lumen of another leg is none.
-            int left = from;
-            for (int k = from; k < edgeContacts.Count; k++)
-            {
-                EdgeContact crease = edgeContacts[k];
-                _tree.Deepest(Vector3d.Lerp(a, b, crease.Position), 0, out double depth);
-                if (depth <= crease.Distance + _tree.Resolution)
+                int first = _tree.Deepest(a, features.IsKnown ? features[features.From] : 0, out double atA);
+                int last = _tree.Deepest(b, first, out double atB);
+                var start = new TubePoint(0.0, first <= last ? atA : atB, Math.Min(first, last));
+                var end = new TubePoint(1.0, first <= last ? atB : atA, Math.Max(first, last));
+                int from = edgeContacts.Count;
+                AddMeetings(first <= last ? a : b, first <= last ? b : a, start, end, range, 0, edgeContacts);
+                for (int k = from; k < edgeContacts.Count && first > last; k++)
                 {
-                    edgeContacts[left++] = crease;
-                    range = Math.Min(range, crease.Distance - _tree.Resolution);
+                    edgeContacts[k] = edgeContacts[k].Reversed();
                 }
             }
-            edgeContacts.Truncate(left);
-            int piece = FindLeast(a, b, 0, range, out double s, out double distance);
-            if (s > 0.0 && s < 1.0 && distance < range)
-            {
-                Vector3d x = Vector3d.Lerp(a, b, s);
-                _tree.Pieces[piece].Distance(x, out Vector3d centre, out _);
-                edgeContacts.Add(new EdgeContact(s, distance, Vector3d.Normalize(centre - x), 0.0, Vector3d.Zero,
-                    Vector3d.Zero, 1.0, 0.0));
-            }
-        }
-
-        private void FindCreases(in Vector3d a, in Vector3d b, double range, FeatureRange features,
-            StructList<EdgeContact> edgeContacts)
-        {
-            if (features.IsKnown)
+            else if (features.IsKnown)
             {
                 EdgeContacts.Find(a, b, range, features, edgeContacts);
             }
             else
             {
                 EdgeContacts.Find(a, b, range, edgeContacts);
+            }
+        }
+
+        // In the direction of the tube. With slope at most 1, d is nowhere below (d0 + d1 - length)/2.
+        private void AddMeetings(in Vector3d a, in Vector3d b, in TubePoint from, in TubePoint to, double range,
+            int cuts, StructList<EdgeContact> edgeContacts)
+        {
+            double length = (to.S - from.S) * Vector3d.Distance(a, b);
+            if (from.Piece == to.Piece || 0.5 * (from.Distance + to.Distance - length) > range || cuts == MaxCuts)
+            {
+                return;
+            }
+            double middle = _tree.Crossing(a, b, from, to);
+            Vector3d x = Vector3d.Lerp(a, b, middle);
+            int deepest = _tree.Deepest(x, from.Piece, out double depth);
+            double crossing = Math.Max(_tree.Pieces[from.Piece].Distance(x), _tree.Pieces[to.Piece].Distance(x));
+            if (depth > crossing + _tree.Resolution)
+            {
+                var cut = new TubePoint(middle, depth, deepest);
+                AddMeetings(a, b, from, cut, range, cuts + 1, edgeContacts);
+                AddMeetings(a, b, cut, to, range, cuts + 1, edgeContacts);
+            }
+            else if (EdgeContacts.FindBetween(from.Piece, to.Piece, a, b, (from.S, middle, to.S), range,
+                out EdgeContact contact))
+            {
+                edgeContacts.Add(contact);
             }
         }
 
@@ -303,7 +310,7 @@ namespace Guidewire.Core
 
         private TubeCcd Ccd => _ccd ??= new TubeCcd(_tree.Pieces, Planes);
 
-        private TubeOverlaps Overlaps => _overlaps ??= new TubeOverlaps(_knots, _radii);
+        private TubeOverlaps Overlaps => _overlaps ??= new TubeOverlaps(_knots, _radii, _tree);
 
         private TubePlanes Planes => _planes ??= new TubePlanes(_knots);
 

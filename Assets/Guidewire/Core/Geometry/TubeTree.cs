@@ -205,16 +205,23 @@ namespace Guidewire.Core
         }
     }
 
-    /// <summary>Pieces of a tube that overlap pieces which are not next to them: legs of a hairpin, and where the tube
-    /// comes back to itself. A segment may cross from one to the other at no knot.</summary>
+    /// <summary>Pieces of a tube that overlap pieces which are not next to them: legs of a hairpin, where the tube comes
+    /// back to itself, and where it widens so much in short pieces that one holds the crease of others. A segment may
+    /// cross from one to the other at no knot.</summary>
     internal sealed class TubeOverlaps
     {
         private const double LargestTurn = 1.0;    // radians between axes of pieces that pieces between them separate
+        private const int Directions = 6;          // around a knot, in which its crease is looked at
+        private const int Iterations = 10;
+        private const double Near = 1e-9;          // of the radius: a crease that is found
+        private const double Hidden = 1e-6;        // of the radius, by which another piece is deeper there
+        private static readonly double[] Depths = { 0.0, 0.25 };    // of the radius, at which it is looked at
         private readonly bool[] _isIn;             // by piece
-        private readonly bool _hasAny;
+        private bool _hasAny;
 
         /// <summary>Finds the overlaps of the tube through these knots with these radii, units.</summary>
-        public TubeOverlaps(Vector3d[] knots, double[] radii)
+        /// <param name="tree">Of its pieces.</param>
+        public TubeOverlaps(Vector3d[] knots, double[] radii, TubeTree tree)
         {
             int count = knots.Length - 1;
             _isIn = new bool[count];
@@ -243,10 +250,60 @@ namespace Guidewire.Core
                     // Around a circle of at least the tube's radius it takes more than half a circle to come so near.
                     if (squared < range * range && (cosine < Math.Cos(LargestTurn) || along > 0.5 * Math.PI * range))
                     {
-                        _isIn[i] = true;
-                        _isIn[j] = true;
-                        _hasAny = true;
+                        Add(i, j, j);
                     }
+                }
+            }
+            for (int k = 1; k < count; k++)
+            {
+                Vector3d along = Vector3d.Normalize((1.0 / lengths[k - 1]) * (knots[k] - knots[k - 1])
+                    + (1.0 / lengths[k]) * (knots[k + 1] - knots[k]));
+                FindHidden(tree, k, knots[k], radii[k], along);
+            }
+        }
+
+        private void Add(int one, int two, int three)
+        {
+            _isIn[one] = true;
+            _isIn[two] = true;
+            _isIn[three] = true;
+            _hasAny = true;
+        }
+
+        // Whether another piece is deeper where the two at a knot meet, by Newton's method in planes along the tube.
+        private void FindHidden(TubeTree tree, int k, in Vector3d knot, double radius, in Vector3d along)
+        {
+            Vector3d side = Vector3d.Normalize(Vector3d.Perpendicular(along));
+            Vector3d other = Vector3d.Cross(along, side);
+            for (int i = 0; i < Directions * Depths.Length; i++)
+            {
+                double angle = 2.0 * Math.PI * i / Directions;
+                Vector3d across = Math.Cos(angle) * side + Math.Sin(angle) * other;
+                double depth = Depths[i / Directions] * radius;
+                Vector3d x = knot + (radius - depth) * across;
+                for (int iteration = 0; iteration < Iterations; iteration++)
+                {
+                    double first = depth - tree.Pieces[k - 1].Distance(x, out Vector3d centre, out _);
+                    Vector3d one = Vector3d.Normalize(centre - x);
+                    double second = depth - tree.Pieces[k].Distance(x, out centre, out _);
+                    Vector3d two = Vector3d.Normalize(centre - x);
+                    double determinant = Vector3d.Dot(one, across) * Vector3d.Dot(two, along)
+                        - Vector3d.Dot(one, along) * Vector3d.Dot(two, across);
+                    if (!(Math.Abs(determinant) > Hidden))
+                    {
+                        break;
+                    }
+                    if (Math.Abs(first) + Math.Abs(second) < Near * radius)
+                    {
+                        int deepest = tree.Deepest(x, k, out double there);
+                        if (there > depth + Hidden * radius)
+                        {
+                            Add(k - 1, k, deepest);
+                        }
+                        break;
+                    }
+                    x += ((first * Vector3d.Dot(two, along) - second * Vector3d.Dot(one, along)) / determinant) * across
+                        + ((second * Vector3d.Dot(one, across) - first * Vector3d.Dot(two, across)) / determinant) * along;
                 }
             }
         }

@@ -1,3 +1,4 @@
+using System;
 
 namespace Guidewire.Core.Tests
 {
@@ -8,7 +9,7 @@ namespace Guidewire.Core.Tests
         public static readonly string[] Names =
         {
             "plane", "tube", "wavy tube", "cube", "bumpy ball", "open tube", "sphere", "capsule", "box", "hull",
-            "cone", "cylinder",
+            "cone", "cylinder", "sac",
         };
 
         private static readonly double[] StraightRadii = { 0.8, 0.8 };
@@ -33,6 +34,17 @@ namespace Guidewire.Core.Tests
                             new Vector3d(0.2, 0.8, 1.1),
                         },
                         WavyRadii, true, false);
+                case "sac":
+                    // A ball behind a short neck: its first pieces hold the crease between neck and cone.
+                    var knots = new Vector3d[9];
+                    var radii = new double[9];
+                    for (int i = 0; i < 9; i++)
+                    {
+                        double angle = Math.PI * (0.75 - 0.0625 * (i - 2));
+                        knots[i] = new Vector3d(0.0, 0.0, i < 2 ? 1.2 * i - 2.1 : 0.8 * Math.Cos(angle));
+                        radii[i] = i < 2 ? 0.25 : 0.8 * Math.Sin(angle);
+                    }
+                    return new TubeShape(knots, radii, true, false);
                 case "cube":
                     return new MeshShape(TestMeshes.Cube().Build());
                 case "bumpy ball":

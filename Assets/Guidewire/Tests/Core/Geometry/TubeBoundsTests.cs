@@ -76,10 +76,11 @@ namespace Guidewire.Core.Tests
             Assert.That(found, Is.GreaterThan(100));
         }
 
-        /// <summary>In a tube of hairpins, whose legs overlap, a segment is as near to the wall as its ends and edge
-        /// contacts are.</summary>
-        [Test]
-        public void EdgeContacts_WhereLegsOverlap_HoldTheNearestPoint()
+        /// <summary>In a tube of hairpins, whose legs overlap, and in a sac, whose pieces hold creases of others, a segment
+        /// is as near to the wall as its ends and edge contacts are.</summary>
+        [TestCase(false)]
+        [TestCase(true)]
+        public void EdgeContacts_WherePiecesOverlap_HoldTheNearestPoint(bool isSac)
         {
             var random = new RandomGeometry(34);
             var edges = new StructList<EdgeContact>(8);
@@ -87,10 +88,10 @@ namespace Guidewire.Core.Tests
             int inside = 0;
             for (int i = 0; i < RandomGeometry.Cases(20_000); i++)
             {
-                TubeShape tube = Hairpins(random);
+                TubeShape tube = isSac ? Sac(random) : Hairpins(random);
                 Vector3d[] knots = tube.Knots;
-                int k = 1 + random.Index(knots.Length - 2);
-                Vector3d a = knots[k] + 0.8 * random.Point();
+                int k = isSac ? 2 : 1 + random.Index(knots.Length - 2);
+                Vector3d a = knots[k] + (isSac ? 0.5 : 0.8) * random.Point();
                 Vector3d b = a + 1.5 * random.Point();
                 double least = tube.MinDistance(a, b);
                 if (!(least > 0.0))
@@ -113,6 +114,27 @@ namespace Guidewire.Core.Tests
                 Assert.That(found, Is.EqualTo(least).Within(1e-9), "case " + i);
             }
             Assert.That(inside, Is.GreaterThan(RandomGeometry.Cases(200)));
+        }
+
+        // A ball of radius 1, in so many pieces, behind a neck.
+        private static TubeShape Sac(RandomGeometry random)
+        {
+            int pieces = 3 + random.Index(9);
+            double neck = random.Number(0.15, 0.65);
+            double begin = random.Number(0.65, 0.745) * Math.PI;
+            double turn = random.Number(0.3, 0.38) * Math.PI / pieces;
+            var knots = new Vector3d[pieces + 3];
+            var radii = new double[pieces + 3];
+            double first = Math.Sin(begin);
+            double rise = Math.Abs(first - neck) / random.Number(0.5, 0.97);
+            for (int i = 0; i < knots.Length; i++)
+            {
+                double angle = begin - turn * (i - 2);
+                knots[i] = new Vector3d(0.0, 0.0, i == 0 ? -2.0 - rise
+                    : i == 1 ? -rise : Math.Cos(angle) - Math.Cos(begin));
+                radii[i] = i < 2 ? neck : Math.Sin(angle);
+            }
+            return new TubeShape(knots, radii, true, false);
         }
 
         private static TubeShape Hairpins(RandomGeometry random)
