@@ -299,6 +299,7 @@ namespace Guidewire.Cli
                 ["left"] = Vector(axes.Left),
                 ["chest"] = Vector(axes.Chest),
                 ["head"] = Vector(axes.Head),
+                ["origin"] = session.Parameters.Scene.PatientOrigin is Vector3d origin ? Vector(origin) : null,
             }
             : null;
         }

@@ -7,7 +7,7 @@ import {
 import { ramp, roundUp, row } from "./colours.js";
 import { DrawnInstrument } from "./instrument.js";
 import { throughTips } from "./path.js";
-import { glow, ringAt, tissue } from "./tissue.js";
+import { glow, rimOfLight, ringAt, tissue } from "./tissue.js";
 
 /** @typedef {import("./recording.js").Recording} Recording */
 
@@ -17,6 +17,8 @@ const [STEEL, GOLD] = ["#dfe7ee", "#ffb84a"].map((colour) => new Color(colour));
 const TIP = 20; // mm of it
 const FOLD = 6; // mm of a vessel's wall that has one fold
 const GLOW = 30; // points of the screen, at least
+const PATIENT = 0x86a9c8;
+const [SKIN, BONE] = /** @type {[number, number][]} */ ([[0.5, 3.2], [0.55, 1.5]]); // strength of their rims, and how sharp they are
 const ARROWS = 0x7fe07f;
 const LONGEST_ARROW = 0.2; // fraction of the wire's length
 const LEAST_RADIUS = 2.5; // points of the screen that a wire takes so that it is seen
@@ -48,8 +50,9 @@ export class Model {
     this._glow = glow(0xffa03c);
     if (target) this.group.add(ringAt(target));
     for (const wall of recording.walls) this.walls.add(...surfaces(wall, recording.millimetres));
+    this.patient = new Group().add(...rims(recording.body));
     this._moves = 0; // of walls, that are in the picture
-    this.group.add(...this.drawn.map((one) => one.group), this.arrows, this.walls, this._glow);
+    this.group.add(...this.drawn.map((one) => one.group), this.arrows, this.walls, this.patient, this._glow);
     this._sheath = recording.sheath && makeSheath(recording.sheath, SHEATH * Math.max(
       ...recording.centrelines.map((_, k) => recording.radiusOf(k))), [
       this._tinted(new MeshLambertMaterial({ color: SHEATH_COLOUR })),
@@ -257,6 +260,24 @@ function makeSheath(ends, radius, [surface, stroke]) {
   tube.position.copy(exit).add(back).multiplyScalar(0.5);
   tube.quaternion.setFromUnitVectors(new Vector3(0, 1, 0), along.normalize());
   return new Group().add(tube, new Line(new BufferGeometry().setFromPoints([back, exit]), stroke));
+}
+
+/** A patient as rims of light: skin, and all bones in one. @param {import("./patient.js").Part[]} body */
+function rims(body) {
+  return /** @type {const} */ (["skin", "bone"]).map((kind) => {
+    /** @type {number[]} */ const vertices = [];
+    /** @type {number[]} */ const triangles = [];
+    for (const part of body.filter((one) => one.kind === kind)) {
+      const first = vertices.length / 3;
+      vertices.push(...part.vertices);
+      triangles.push(...part.triangles.map((corner) => first + corner));
+    }
+    const geometry = new BufferGeometry().setAttribute("position", new BufferAttribute(Float32Array.from(vertices), 3)).setIndex(triangles);
+    geometry.computeVertexNormals();
+    const mesh = new Mesh(geometry, rimOfLight(new Color(PATIENT), ...(kind === "skin" ? SKIN : BONE)));
+    mesh.layers.set(BEHIND);
+    return mesh;
+  });
 }
 
 /** A wall as one looks into it: its far side, and its near side faintly. @param {import("./recording.js").Wall} wall

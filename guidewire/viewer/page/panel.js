@@ -55,7 +55,7 @@ export class Panel {
     this._isWaiting = false;
     this._coloured = 1; // how many of them take the colours; the others are plain
     for (const id of ["colour", "first", "second", "thickness"]) byId(id).onchange = changed;
-    for (const id of ["walls", "arrows", "follow"]) byId(id).onchange = changed;
+    for (const id of ["walls", "patient", "arrows", "follow"]) byId(id).onchange = changed;
     byId("wire").ontoggle = changed;
     stage.onThickness = () => this._showThickness();
   }
@@ -119,6 +119,7 @@ export class Panel {
       model.isPlain = k >= this._coloured;
       model.thickness = Number(byId("thickness").value) || null;
       model.walls.visible = byId("walls").checked && (k === 0 || this._coloured > 1);
+      model.patient.visible = byId("patient").checked && k === 0;
       model.arrows.visible = byId("arrows").checked;
       model.show(frames[k], full);
     });

@@ -50,6 +50,7 @@
  */
 
 import { press } from "./indentation.js";
+import { patientAround } from "./patient.js";
 
 const TYPES = { f8: Float64Array, f4: Float32Array, u2: Uint16Array, u4: Uint32Array };
 const COLOURS = ["#4aa8ff", "#ff9d2e", "#b58cff", "#5fd38d"]; // of instruments, the first run's first
@@ -90,6 +91,8 @@ export class Recording {
     this._atRest = new Map(walls.filter((wall) => wall.isSoft || wall.cycles.length > 0)
       .map((wall) => [wall, wall.vertices.slice()]));
     this._isMoved = false;
+    /** @type {import("./patient.js").Part[] | undefined} */
+    this._body = undefined;
     /** Counts how often vertices were moved. */
     this.moves = 0;
     this.sheath = sheath;
@@ -145,6 +148,12 @@ export class Recording {
       }
     }
     return /** @type {[[number, number, number], [number, number, number]]} */ ([low, high]);
+  }
+
+  /** What of a generic patient lies around the vessel. */
+  get body() {
+    const { patient } = this.described ?? {};
+    return this._body ??= patient ? patientAround(patient, this.box, this.millimetres) : [];
   }
 
   /** Number of frames. */
