@@ -73,7 +73,6 @@ class Recording:
     largest : as of `largest_shown`, where more was seen than these frames; None: of these.
     described : as of `Session.describe`; empty where it is not known: then there is no fluoroscopy.
     soft : the numbers of walls that give way.
-    moving : as of `drawn_cycles`.
     """
 
     title: str
@@ -87,7 +86,6 @@ class Recording:
     largest: np.ndarray | None = None
     described: Mapping[str, Any] = field(default_factory=dict)
     soft: Sequence[int] = ()
-    moving: Mapping[int, Sequence[Mapping[str, Any]]] = field(default_factory=dict)
 
     def to_bytes(self, exact: bool = True) -> bytes:
         """Return the block for the page; where it need not be exact, of 16 bits a number between the lowest and the
@@ -103,8 +101,6 @@ class Recording:
         } for channel, size in zip(self.channels, largest)]
         walls = [{
             "kind": kind, "isSoft": k in self.soft,
-            "cycles": [{**cycle, "displacements": arrays.quantise(cycle["displacements"].reshape(-1, 3), 3)}
-                       for cycle in self.moving.get(k, ())],
             "vertices": arrays.add(wall.vertices, "f4") if exact else arrays.quantise(wall.vertices, 3),
             "triangles": arrays.add(wall.triangles, "u2" if len(wall.vertices) <= _STEPS else "u4"),
         } for k, (kind, wall) in enumerate(self.walls)]
@@ -203,8 +199,8 @@ def make_channels(units: Units, numbers: Mapping[str, np.ndarray | None]) -> lis
         of the first catheter "contact_forces1"; "strand_forces" (k, n+1, 3), N; "wall_displacements" (k, n, 3), m, the
         same; "reaction" (k, 3); "couple" (k, n+1, 3), N m; "coreStrain" and "coreShare" (k, n+1); "kineticEnergy",
         "elasticEnergy" and "potentialEnergy" (k,), J; what a log has of the hub, (k,), with "hub." before its key;
-        "lumen" (k, 3), as of `lumen_of`; "inBody" (k,), spheres out of a sheath; "step_time" (k,), ms; "real_time" (k,),
-        times faster.
+        "lumen" (k, 3), as of `lumen_of`; "vessel_phase" (k,), 0 to 1; "inBody" (k,), spheres out of a sheath;
+        "step_time" (k,), ms; "real_time" (k,), times faster.
     """
     known = {name: values for name, values in numbers.items() if values is not None}
     positions = known["positions"]
@@ -248,6 +244,8 @@ def make_channels(units: Units, numbers: Mapping[str, np.ndarray | None]) -> lis
                                 np.linalg.norm(known["strand_forces"], axis=2)))
     channels += [Channel(name.replace("wall_d", "wallD"), "", "units", "vector", _flat(per_unit * known[name]))
                  for name in known if name.startswith("wall_displacements")]
+    if "vessel_phase" in known:
+        channels.append(Channel("vesselPhase", "phase of the vessel's cycle", "1", "frame", known["vessel_phase"]))
     if "lumen" in known:
         channels.append(Channel("lumen", "", "", "frame", known["lumen"]))
     channels += _at_the_hub(known, units, along)
@@ -382,7 +380,7 @@ def read_recording(run: Run, walls: Sequence[Surface], frames: int, described: M
     }
     numbers["lumen"] = lumen_of(places(log.positions[kept]))
     if (any(run.parameters.get(key) for key in ("logOrientations", "logContacts", "logStrains", "logHub"))
-            or run.parameters.get("sheath") is not None):
+            or run.parameters.get("sheath") is not None or any(described.get("motions", ()))):
         numbers.update(_read_more(run, log.steps[kept], len(log.catheters)))
     warnings = [line for line in (log.warning,) if line] + list((run.summary or {}).get("warnings", []))
     if len(finite) < len(log.steps):
@@ -393,18 +391,7 @@ def read_recording(run: Run, walls: Sequence[Surface], frames: int, described: M
         facts_of(run.parameters, run.summary), radius_of(run.parameters),
         make_channels(units_of(run.parameters), numbers), name_walls(run.parameters, walls),
         sheath_of(run.parameters, numbers), described=described, soft=soft_walls(run.parameters),
-        moving=moving_walls(run.parameters, walls),
     )
-
-
-def moving_walls(parameters: Mapping[str, Any], walls: Sequence[Surface]) -> dict[int, list[dict[str, Any]]]:
-    """Return what pictures draw of walls that move, as of `drawn_cycles`."""
-    own = [one for one in (parameters.get("vessel"), *(parameters.get("obstacles") or ())) if one]
-    if not walls or not any("motion" in one for one in own):
-        return {}
-    from guidewire.anatomy.motion import drawn_cycles
-
-    return drawn_cycles(parameters, [wall.vertices for wall in walls])
 
 
 def ending_of(outcome: str | None, reliable: bool | None, reason: str) -> str:
@@ -450,7 +437,7 @@ def _read_more(run: Run, steps: np.ndarray, catheters: int) -> dict[str, np.ndar
     shown = {"contactForces": "contact_forces", "wallDisplacements": "wall_displacements"}    # also of catheters
     names = {name: shown.get(name, name) for name in (
         "orientations", "reaction", "curvature", "force", "couple", "inBody", *ENERGIES, *CORE, *shown)}
-    names["strandForces"] = "strand_forces"
+    names |= {"strandForces": "strand_forces", "vesselPhase": "vessel_phase"}
     names |= {name: f"hub.{_ROWS[name].key}" for name in _HUB}
     for number in range(catheters):
         names |= {catheter_name(name, number): f"{to}{number + 1}" for name, to in shown.items()}

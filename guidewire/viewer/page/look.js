@@ -32,7 +32,7 @@ export const plainLook = () => ({
   blur: 0, isSubtracted: false, shift: [0, 0],
 });
 /** Brightness over the background's behind the most of a patient and the least, and how soon it changes with the optical depth. */
-const [DARKEST, LIGHTEST, STEEP] = [0.66, 1.06, 4];
+const [DARKEST, LIGHTEST, STEEP] = [0.74, 1.1, 4];
 /** Pixels of a square picture; others have as many in all. */
 export const PIXELS = 512;
 
@@ -92,7 +92,7 @@ export class View {
    * @param {import("./patient.js").Part[]} [body] of a generic patient
    */
   set(walls, box, millimetres, patient = null, cells = null, body = []) {
-    this._bodies = body.map(({ vertices, triangles, attenuation }) => [new Lumen({ isSoft: false,
+    this._bodies = body.map(({ vertices, triangles, attenuation }) => [new Lumen({ isStill: true,
       vertices: Float32Array.from(vertices), triangles: Uint32Array.from(triangles) }), attenuation * millimetres]);
     this._cells = cells && new LumenCells(cells, box);
     this.parts = null;

@@ -7,7 +7,7 @@
  * triangles that it passes of their depths. Open rims are closed by a fan about their middle.
  */
 export class Lumen {
-  /** @param {Pick<Wall, "vertices" | "triangles" | "isSoft">} wall */
+  /** @param {Pick<Wall, "vertices" | "triangles" | "isStill">} wall */
   constructor(wall) {
     this._wall = wall;
     const vertices = [...wall.vertices];
@@ -49,7 +49,7 @@ export class Lumen {
 
   /** @param {import("./carm.js").CArm} arm @param {Take} take */
   _project(arm, take) {
-    if (this._wall.isSoft) this._vertices.set(this._wall.vertices); // middles of rims stay
+    if (!this._wall.isStill) this._vertices.set(this._wall.vertices); // middles of rims stay
     const point = [0, 0, 0];
     for (let i = 0; i < this._vertices.length; i += 3) {
       arm.project(this._vertices, i, point);

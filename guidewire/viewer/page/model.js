@@ -48,7 +48,8 @@ export class Model {
     this.arrows.frustumCulled = false;
     const { target } = recording.described ?? {};
     this._glow = glow(0xffa03c);
-    if (target) this.group.add(ringAt(target));
+    this._ring = target && ringAt(target);
+    if (this._ring) this.group.add(this._ring);
     for (const wall of recording.walls) this.walls.add(...surfaces(wall, recording.millimetres));
     this.patient = new Group().add(...rims(recording.body));
     this._moves = 0; // of walls, that are in the picture
@@ -104,6 +105,7 @@ gl_FragColor.rgb = gl_FragColor.rgb * (1.0 - tint.a) + tint.rgb;`)}`;
     const positions = this.recording.at("positions", frame);
     const first = this.recording.firstShown(frame);
     this.recording.moveWalls(frame);
+    this._ring?.position.fromArray(this.recording.targetAt(frame));
     if (this.recording.moves !== this._moves) {
       this._moves = this.recording.moves;
       for (const part of this.walls.children) {

@@ -270,7 +270,7 @@ export class Xray {
     }
     const target = recording.described?.target;
     this._mark("tipMark", watchedTip);
-    this._mark("reticle", target?.points.at(-1));
+    this._mark("reticle", target ? recording.targetAt(this._models[0].frame) : undefined);
     byId("reticle").lastElementChild.textContent = target ? byId("left").textContent : "";
   }
 

@@ -10,7 +10,7 @@ from guidewire.sessions.session import session_of
 from guidewire.viewer.cases import MISSIONS
 from guidewire.viewer.tests.test_page_session import doubles, follow
 
-CHEST = 40.0    # mm above the eighth thoracic vertebra, where the outline is 172 mm wide and 116 mm deep from its middle
+CHEST = 40.0    # mm above the eighth thoracic vertebra: there the outline is 172 mm wide and 116 mm deep from its middle
 PARTS = """
 import { patientAround } from "./patient.js";
 const parts = patientAround(data.patient, data.box, data.millimetres);
@@ -66,7 +66,7 @@ def test_x_rays_through_the_patient_are_weakened_by_what_they_pass():
         const through = (lao) => {
           const arm = new CArm(lao, 0, data.centre, 40, 9, data.patient);
           const sum = new Float64Array(81);
-          new Lumen({ isSoft: false, vertices: Float32Array.from(skin.vertices),
+          new Lumen({ isStill: true, vertices: Float32Array.from(skin.vertices),
             triangles: Uint32Array.from(skin.triangles) }).sum(arm, sum, skin.attenuation / arm.scale);
           return sum[40];
         };

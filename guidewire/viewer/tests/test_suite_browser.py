@@ -46,8 +46,8 @@ def test_contrast_in_the_shader_is_that_of_the_core(browse, runner_command, tmp_
             "field_of_view" if name == "field" else name: value for name, value in look.items()}).astype(int)
                  for look in LOOKS]
     take = (f"(look) => {{ const x = {VIEW}; x.resize(512, 512); x.parts = Float64Array.from({parts.tolist()});"
-            " Object.assign(x.look, {centre: null, field: null, vessel: 'injected', agent: 0.23, background: 0.75,"
-            " noise: 0, blur: 0}, look);"
+            " x.showsPatient = false; Object.assign(x.look, {centre: null, field: null, vessel: 'injected', agent: 0.23,"
+            " background: 0.75, noise: 0, blur: 0}, look);"
             f" viewer.shown.model.recording.at('positions', 0).set({wire.ravel().tolist()}); return {GREY}; }}")
     with serving(tmp_path, scene, with_three=True) as (address, _):
         seen = browse(["open", address], DRAWN,
@@ -86,7 +86,8 @@ def test_the_wire_stands_out_of_road_map_and_filled_vessel(browse, runner_comman
 
 def test_agent_is_injected_by_key_and_counted_and_seen_and_subtracted_and_mapped(browse, runner_command, tmp_path):
     darkest = f"{VIEW}._brightness.reduce((least, value) => Math.min(least, value))"
-    with serving(tmp_path, near_target(tmp_path, target="branch 2"), with_three=True) as (address, _):
+    scene = near_target(tmp_path, target="branch 2", patientOrigin=None)
+    with serving(tmp_path, scene, with_three=True) as (address, _):
         seen = browse(
             ["open", address], DRAWN, ["choose", ["#vessel", "none"]],
             # ml: so much flows for longer than it takes the page to pause
