@@ -15,6 +15,7 @@ from typing import Any
 
 import numpy as np
 
+from guidewire.logs.hub import HubCurve
 from guidewire.logs.logs import LogError, read_columns, read_log
 from guidewire.logs.runs import Run
 from guidewire.logs.surfaces import Surface
@@ -351,7 +352,7 @@ def _twist(orientations: np.ndarray, lengths: np.ndarray) -> np.ndarray:
 
 
 def read_recording(run: Run, walls: Sequence[Surface], frames: int, described: Mapping[str, Any],
-                   places: Callable[[np.ndarray], Sequence[LumenPlace]]) -> Recording:
+                   places: Callable[[np.ndarray], Sequence[LumenPlace]], curve: HubCurve | None = None) -> Recording:
     """Return a run from its folder.
 
     Parameters
@@ -361,6 +362,7 @@ def read_recording(run: Run, walls: Sequence[Surface], frames: int, described: M
     frames : how many at most; of more entries they are taken at even distances, the first and the last among them.
     described : as of `Session.describe`.
     places : as `Session.places`; empty where that is not known.
+    curve : the run with others that tell how sure its forces at the hub are; None: there are none.
 
     Raises
     ------
@@ -389,9 +391,17 @@ def read_recording(run: Run, walls: Sequence[Surface], frames: int, described: M
     return Recording(
         run.folder.resolve().name, ending_of(run.outcome, summary.get("reliable"), summary.get("reason", "")), warnings,
         facts_of(run.parameters, run.summary), radius_of(run.parameters),
-        make_channels(units_of(run.parameters), numbers), name_walls(run.parameters, walls),
+        [*make_channels(units_of(run.parameters), numbers), *_bands(curve, log.time[kept])], name_walls(run.parameters, walls),
         sheath_of(run.parameters, numbers), described=described, soft=soft_walls(run.parameters),
     )
+
+
+def _bands(curve: HubCurve | None, times: np.ndarray) -> list[Channel]:
+    """Lowest and highest force and torque at the hub at these times, (k, 2)."""
+    return [] if curve is None else [
+        Channel(f"hub{name.title()}Band", "", unit, "frame", np.stack(
+            [np.interp(times, curve.log.time, side) for side in curve.band(name)], axis=1))
+        for name, unit in (("force", "N"), ("torque", "N m"))]
 
 
 def ending_of(outcome: str | None, reliable: bool | None, reason: str) -> str:

@@ -399,7 +399,7 @@ export class Live {
     if (!this.model) return;
     const { recording } = this.model;
     const frame = this._back ?? recording.count - 1;
-    this._panel.show([frame], recording.at("time", frame)[0]);
+    this._panel.show([frame]);
     this._desk.show(frame);
     this._xray.ask();
     const slider = byId("back");
