@@ -17,8 +17,8 @@ const [STEEL, GOLD] = ["#dfe7ee", "#ffb84a"].map((colour) => new Color(colour));
 const TIP = 20; // mm of it
 const FOLD = 6; // mm of a vessel's wall that has one fold
 const GLOW = 30; // points of the screen, at least
-const PATIENT = 0x86a9c8;
-const [SKIN, BONE] = /** @type {[number, number][]} */ ([[0.5, 3.2], [0.55, 1.5]]); // strength of their rims, and how sharp they are
+/** Of a patient. @type {Record<string, import("three").Material>} */
+const RIMS = { skin: rimOfLight(new Color(0.53, 0.66, 0.78), 0.5, 3.2), bone: rimOfLight(new Color(0.53, 0.66, 0.78), 0.55, 1.5) };
 const ARROWS = 0x7fe07f;
 const LONGEST_ARROW = 0.2; // fraction of the wire's length
 const LEAST_RADIUS = 2.5; // points of the screen that a wire takes so that it is seen
@@ -51,7 +51,7 @@ export class Model {
     this._ring = target && ringAt(target);
     if (this._ring) this.group.add(this._ring);
     for (const wall of recording.walls) this.walls.add(...surfaces(wall, recording.millimetres));
-    this.patient = new Group().add(...rims(recording.body));
+    this.patient = new Group().add(...recording.body.filter(({ kind }) => kind in RIMS).map(rim));
     this._moves = 0; // of walls, that are in the picture
     this.group.add(...this.drawn.map((one) => one.group), this.arrows, this.walls, this.patient, this._glow);
     this._sheath = recording.sheath && makeSheath(recording.sheath, SHEATH * Math.max(
@@ -264,22 +264,13 @@ function makeSheath(ends, radius, [surface, stroke]) {
   return new Group().add(tube, new Line(new BufferGeometry().setFromPoints([back, exit]), stroke));
 }
 
-/** A patient as rims of light: skin, and all bones in one. @param {import("./patient.js").Part[]} body */
-function rims(body) {
-  return /** @type {const} */ (["skin", "bone"]).map((kind) => {
-    /** @type {number[]} */ const vertices = [];
-    /** @type {number[]} */ const triangles = [];
-    for (const part of body.filter((one) => one.kind === kind)) {
-      const first = vertices.length / 3;
-      vertices.push(...part.vertices);
-      triangles.push(...part.triangles.map((corner) => first + corner));
-    }
-    const geometry = new BufferGeometry().setAttribute("position", new BufferAttribute(Float32Array.from(vertices), 3)).setIndex(triangles);
-    geometry.computeVertexNormals();
-    const mesh = new Mesh(geometry, rimOfLight(new Color(PATIENT), ...(kind === "skin" ? SKIN : BONE)));
-    mesh.layers.set(BEHIND);
-    return mesh;
-  });
+/** What of a patient is seen from outside, as rims of light. @param {import("./patient.js").Part} part */
+function rim({ kind, vertices, triangles }) {
+  const geometry = new BufferGeometry().setAttribute("position", new BufferAttribute(Float32Array.from(vertices), 3)).setIndex(triangles);
+  geometry.computeVertexNormals();
+  const mesh = new Mesh(geometry, RIMS[kind]);
+  mesh.layers.set(BEHIND);
+  return mesh;
 }
 
 /** A wall as one looks into it: its far side, and its near side faintly. @param {import("./recording.js").Wall} wall

@@ -54,24 +54,22 @@ export class Carried {
 /** The points that are nearest to each place, and their weights. @param {Float32Array} places @param {Float32Array} points
  * @param {number} spacing */
 function nearest(places, points, spacing) {
-  const most = Math.min(NEAREST, points.length / 3);
+  const count = points.length / 3;
+  const most = Math.min(NEAREST, count);
   const near = new Uint16Array((most * places.length) / 3);
   const weights = new Float32Array(near.length);
-  const square = new Float64Array(points.length / 3);
+  const square = new Float64Array(count);
   for (let i = 0, slot = 0; i < places.length; i += 3, slot += most) {
-    for (let k = 0; k < square.length; k++) {
-      square[k] = (places[i] - points[3 * k]) ** 2 + (places[i + 1] - points[3 * k + 1]) ** 2 + (places[i + 2] - points[3 * k + 2]) ** 2;
+    const [x, y, z] = places.subarray(i, i + 3);
+    for (let k = 0; k < count; k++) square[k] = (points[3 * k] - x) ** 2 + (points[3 * k + 1] - y) ** 2 + (points[3 * k + 2] - z) ** 2;
+    for (let n = slot; n < slot + most; n++) {
+      for (let k = 1; k < count; k++) if (square[k] < square[near[n]]) near[n] = k;
+      weights[n] = square[near[n]];
+      square[near[n]] = Infinity;
     }
-    let [least, sum] = [0, 0];
-    for (let n = 0; n < most; n++) {
-      let best = 0;
-      for (let k = 1; k < square.length; k++) if (square[k] < square[best]) best = k;
-      if (n === 0) least = square[best];
-      near[slot + n] = best;
-      sum += weights[slot + n] = Math.exp((least - square[best]) / (2 * spacing * spacing));
-      square[best] = Infinity;
-    }
-    for (let n = 0; n < most; n++) weights[slot + n] /= sum;
+    const own = weights.subarray(slot, slot + most).map((value, _, all) => Math.exp((all[0] - value) / (2 * spacing * spacing)));
+    const sum = own.reduce((total, value) => total + value, 0);
+    weights.set(own.map((value) => value / sum), slot);
   }
   return { near, weights };
 }
