@@ -51,7 +51,8 @@ export class Model {
     this._ring = target && ringAt(target);
     if (this._ring) this.group.add(this._ring);
     for (const wall of recording.walls) this.walls.add(...surfaces(wall, recording.millimetres));
-    this.patient = new Group().add(...recording.body.filter(({ kind }) => kind in RIMS).map(rim));
+    this.patient = new Group();
+    for (const part of recording.body.filter(({ kind }) => kind in RIMS)) this.patient.add(rim(part));
     this._moves = 0; // of walls, that are in the picture
     this.group.add(...this.drawn.map((one) => one.group), this.arrows, this.walls, this.patient, this._glow);
     this._sheath = recording.sheath && makeSheath(recording.sheath, SHEATH * Math.max(

@@ -23,7 +23,7 @@ const CLOSE_UP = 80; // mm
 const WORN = { noise: 0.022 }; // how a picture looks on the screen
 const MOST_CRANIAL = 60;
 const CLEAR = 1.7; // pixels: half of the width that an instrument has at least in a picture
-const [WIRE_DEPTH, CATHETER_DEPTH] = [1.5, 0.4]; // half of what rays through the middle are weakened by, at least
+const [WIRE_DEPTH, CATHETER_DEPTH] = [2.5, 0.4]; // half of what rays through the middle are weakened by, at least
 
 /** The X-ray view: the C-arm, its buttons and mouse, and the target's mark. */
 export class Xray {

@@ -80,7 +80,7 @@ def test_the_wire_stands_out_of_road_map_and_filled_vessel(browse, runner_comman
                       *(["see", f"{CONTRAST}('{vessel}', {contrast})"] for vessel, contrast in (
                           ("roadmap", 0.1), ("contrast", 0.1), ("contrast", 0.4))))["seen"]
     for ratios, _ in seen:
-        assert len(ratios) > 10 and ratios[0] > 3.4 and ratios[int(0.05 * len(ratios))] > 4.5, ratios[:5]
+        assert len(ratios) > 10 and ratios[0] > 3.4 and ratios[int(0.05 * len(ratios))] > 4.5, (ratios[:5], len(ratios))
     assert seen[1][1] < 120 and seen[2][1] < 30, "the filled vessel is dark"
 
 
