@@ -391,7 +391,8 @@ def read_recording(run: Run, walls: Sequence[Surface], frames: int, described: M
     return Recording(
         run.folder.resolve().name, ending_of(run.outcome, summary.get("reliable"), summary.get("reason", "")), warnings,
         facts_of(run.parameters, run.summary), radius_of(run.parameters),
-        [*make_channels(units_of(run.parameters), numbers), *_bands(curve, log.time[kept])], name_walls(run.parameters, walls),
+        [*make_channels(units_of(run.parameters), numbers), *_bands(curve, log.time[kept])],
+        name_walls(run.parameters, walls),
         sheath_of(run.parameters, numbers), described=described, soft=soft_walls(run.parameters),
     )
 

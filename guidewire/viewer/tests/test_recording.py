@@ -11,7 +11,6 @@ from guidewire.logs.hub import read_hub
 from guidewire.logs.logs import read_log
 from guidewire.logs.runs import read_run
 from guidewire.logs.surfaces import Surface, curvature
-from guidewire.prepare import ROOT
 from guidewire.runs.runner import Request
 from guidewire.viewer import command
 from guidewire.viewer.export import to_html
@@ -155,11 +154,12 @@ def test_300_frames_and_a_vessel_of_50_000_triangles_are_a_file_of_less_than_4_M
 
 
 def test_a_run_brings_the_band_of_its_checks_and_a_study_that_of_its_runs(live, runner_command, tmp_path):
-    scene = ROOT / "guidewire/env/data/missions/left-arm.json"
-    short = {"maxSimulationSteps": 40, "logEvery": 2, "timeStep": 0.04}
-    finer = {"maxSimulationSteps": 80, "logEvery": 2, "timeStep": 0.02}
-    for name, values in (("one", short), ("one/check/half", finer)):
-        answer = live.run(Request(name, scene, tmp_path / name, values))
+    own = {"solver": "direct", "guidewireLength": 60, "numberRodElements": 20, "wireRadius": 2e-4, "massDamping": 20,
+           "proximalEnd": "clamped", "drive": "displace", "insertionSpeed": 0.05, "logHub": True, "deltaThreshold": 0,
+           "vessel": {"shape": "tube", "knots": [[0, 0, -80], [0, 0, -40], [0, 10, 0], [0, 40, 30]], "radius": 2}}
+    for name, dt, steps in (("one", 0.02, 20), ("one/check/half", 0.01, 40)):
+        request = Request(name, None, tmp_path / name, {**own, "timeStep": dt, "maxSimulationSteps": steps})
+        answer = live.run(request)
         assert answer.exit_code == 0, answer.message
     log, other = read_hub(tmp_path / "one"), read_hub(tmp_path / "one/check/half")
     other_force = np.interp(log.time, other.time, other.force)

@@ -46,8 +46,8 @@ def test_contrast_in_the_shader_is_that_of_the_core(browse, runner_command, tmp_
             "field_of_view" if name == "field" else name: value for name, value in look.items()}).astype(int)
                  for look in LOOKS]
     take = (f"(look) => {{ const x = {VIEW}; x.resize(512, 512); x.parts = Float64Array.from({parts.tolist()});"
-            " x.showsPatient = false; Object.assign(x.look, {centre: null, field: null, vessel: 'injected', agent: 0.23,"
-            " background: 0.75, noise: 0, blur: 0}, look);"
+            " x.showsPatient = false; Object.assign(x.look, {centre: null, field: null, vessel: 'injected',"
+            " agent: 0.23, background: 0.75, noise: 0, blur: 0}, look);"
             f" viewer.shown.model.recording.at('positions', 0).set({wire.ravel().tolist()}); return {GREY}; }}")
     with serving(tmp_path, scene, with_three=True) as (address, _):
         seen = browse(["open", address], DRAWN,
@@ -92,7 +92,7 @@ def test_agent_is_injected_by_key_and_counted_and_seen_and_subtracted_and_mapped
             ["open", address], DRAWN, ["choose", ["#vessel", "none"]],
             # ml: so much flows for longer than it takes the page to pause
             ["see", f"{VIEW}.look.noise = 0; document.querySelector('#contrast input').value = 30"],
-            ["see", darkest], ["down", "w"], ["until", f"{HUB} > 0.02"], ["up", "w"],
+            ["until", f"{darkest} > 0"], ["see", darkest], ["down", "w"], ["until", f"{HUB} > 0.02"], ["up", "w"],
             ["press", " "], PAUSED, ["click", "subtract"], ["until", f"{VIEW}.look.isSubtracted && {VIEW}.hasMask"],
             ["press", " "], ["until", f"!{STATUS}.isPaused"],
             ["press", "e"], ["until", f"{INJECTED} > 1 && {VIEW}.hasMap && {darkest} < 0.6"

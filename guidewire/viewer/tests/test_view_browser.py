@@ -272,7 +272,8 @@ def test_a_key_puts_the_catheter_into_the_hand_and_each_instrument_has_its_colou
     assert is_drawn(tmp_path / "hands.png")
 
 
-@pytest.mark.parametrize("task, turned, pushed", [("artery", 2.2, 0.16), ("arch", 0.0, 0.2)])
+@pytest.mark.parametrize("task, turned, pushed", [
+    ("artery", 2.2, 0.16), pytest.param("arch", 0.0, 0.2, marks=pytest.mark.long("the artery is turned and pushed"))])
 def test_a_task_steered_by_keys_is_recorded_and_done_again_to_the_same_bits(browse, runner_command, tmp_path, task,
                                                                             turned, pushed):
     """turned, pushed : rad and m, which lead to the first target."""

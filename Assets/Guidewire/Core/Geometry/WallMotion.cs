@@ -34,9 +34,9 @@ namespace Guidewire.Core
         /// <summary>Time in which the displacement grows from 0, s.</summary>
         public double RampTime { get; }
 
-        /// <summary>What pictures draw of one cycle, without the ramp: how far the points of its centreline are displaced
-        /// at evenly spaced phases, in units, and the matrix, row by row, of what is beside a point, by which that is
-        /// displaced more: 12 numbers a point. A rigid cycle has one point, the origin.</summary>
+        /// <summary>What pictures draw of one cycle, without the ramp: how far the points of its centreline are
+        /// displaced at evenly spaced phases, in units, and the matrix, row by row, of what is beside a point, by which
+        /// that is displaced more: 12 numbers a point. A rigid cycle has one point, the origin.</summary>
         public float[] Displacements(int cycle, int phases)
         {
             MotionCycle own = Cycles[cycle];
