@@ -79,7 +79,7 @@ function tube(points, wide, high = wide, pieces = 5) {
  * @param {number} [tilt] in the picture from the front @param {number} [turn] about the way to the head */
 function blob(centre, radii, power = 1, tilt = 0, turn = 0) {
   const bent = (/** @type {number} */ value) => Math.sign(value) * Math.abs(value) ** power;
-  const rows = Math.min(24, Math.round(6 + Math.max(...radii) / 5));
+  const rows = Math.min(24, Math.round(5 + Math.max(...radii) / 6));
   return join(rows + 1, 2 * rows, (row, angle) => {
     const wide = bent(Math.sin((Math.PI * row) / rows));
     const [x, y, z] = [wide * bent(Math.cos(angle)), wide * bent(Math.sin(angle)), -bent(Math.cos((Math.PI * row) / rows))].map((value, k) => value * radii[k]);
