@@ -15,10 +15,11 @@ from guidewire.logs.logs import read_log
 from guidewire.prepare import ROOT, PreparationError
 from guidewire.runs import building
 from guidewire.runs.runner import Request
-from guidewire.sessions.session import Session
-from guidewire.viewer.live import ENDLESS, PUSH_SPEED
+from guidewire.sessions.session import Session, session_of
 from guidewire.viewer.cases import MISSIONS
 from guidewire.viewer.held import HeldInstruments
+from guidewire.viewer.live import ENDLESS, PUSH_SPEED
+from guidewire.viewer.site import _course
 from guidewire.viewer.tests.browsing import from_npm
 from guidewire.viewer.tests.test_desk_browser import DEBRIEF, OVERLAPS
 from guidewire.viewer.tests.test_view_browser import GAMEPAD
@@ -256,6 +257,17 @@ def test_each_mission_is_won_by_its_own_drive_within_its_par_time(live, tmp_path
     summary = json.loads((tmp_path / "run" / "summary.json").read_text())
     assert summary["outcome"] == "finished" and summary["reliable"]
     assert summary["centreline"]["reached"] and summary["centreline"]["reachedAt"] <= MISSIONS[name].par
+
+
+def test_a_ghost_goes_from_its_start_to_the_target(runner_command):
+    with session_of(ROOT / next(iter(MISSIONS)), native=False) as session:
+        course = _course(session, int(session.parameters["maxSimulationSteps"]))
+        target = session.describe()["target"]
+    way, wires = np.array(course["way"]), np.array(course["wire"]).reshape(len(course["way"]), -1, 3)
+    assert way[0] == 0.0 and (np.diff(way) > -0.5).all() and way[-1] > 190.0
+    assert np.linalg.norm(wires[-1, -1] - target["points"][-1]) < target["reach"] + 5.0
+    tips = np.linalg.norm(np.diff(wires[:, -1], axis=0), axis=1)
+    assert tips.max() < 10.0 and tips.sum() > 190.0
 
 
 @LONG
