@@ -71,7 +71,7 @@ def main(site: Path, out: Path) -> None:
         for name, width in WIDTHS.items():
             with Image.open(folder / f"{name}.png") as one:
                 small = one.convert("RGB").resize((width, round(width * one.height / one.width)), Image.Resampling.LANCZOS)
-            small.quantize(256, Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE).save(out / f"{name}.png", optimize=True)
+            small.quantize(256, Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE).save(out / f"{name}.png", optimize=True)
         write_film(folder, out / "page.gif")
 
 
@@ -86,7 +86,9 @@ def write_film(folder: Path, file: Path) -> None:
     sample = Image.new("RGB", (640, 1600))
     for k, at in enumerate((0, 1, len(frames) // 2, -1)):
         sample.paste(frames[at], (0, 400 * k))
-    palette = sample.quantize(96, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE)
+    colours = sample.quantize(64, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE).getpalette()[:3 * 64]
+    palette = Image.new("P", (1, 1))    # and greys of the X-ray pictures
+    palette.putpalette(colours + [level for k in range(32) for level in 3 * [90 + 5 * k]])
     packed = [one.quantize(palette=palette, dither=Image.Dither.NONE) for one in frames]
     packed[0].save(file, save_all=True, append_images=packed[1:], loop=0, optimize=True,
                    duration=[stands.get(name, 200) for name in names])
