@@ -15,7 +15,7 @@ from experiments.tests.run_claims import Campaign
 from guidewire.runs import building
 from guidewire.runs.key_table import read_key_table
 from guidewire.runs.runner import Runner
-from guidewire.viewer.tests.browsing import browse, firefox  # noqa: F401  fixtures
+from guidewire.viewer.tests.browsing import browse, desk, firefox  # noqa: F401  fixtures
 from tools.testing import FULL_CAMPAIGNS, READY
 
 

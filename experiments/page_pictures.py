@@ -30,7 +30,7 @@ QUIET = ["see", "viewer.xray.fluoroscopy.look.noise = 0; viewer.xray.ask()"]    
 REST = ["see", "new Promise((done) => { setTimeout(done, 1200); })"]
 FILM = (1120, 700)
 WIDTHS = {"page-live": 1000, "page-missions": 900, "page-phone": 300, "page-report": 1000}
-STEPS = [0.2 * k for k in range(1, 24)]    # s of the run at which a frame of the film is taken
+STEPS = [0.4 * k for k in range(1, 12)]    # s of the run at which a frame of the film is taken
 
 
 def main(site: Path, out: Path) -> None:
@@ -71,8 +71,18 @@ def main(site: Path, out: Path) -> None:
         for name, width in WIDTHS.items():
             with Image.open(folder / f"{name}.png") as one:
                 small = one.convert("RGB").resize((width, round(width * one.height / one.width)), Image.Resampling.LANCZOS)
-            small.quantize(256, Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE).save(out / f"{name}.png", optimize=True)
+            packed = small.quantize(palette=palette_of(small, 256), dither=Image.Dither.NONE)
+            packed.save(out / f"{name}.png", optimize=True)
         write_film(folder, out / "page.gif")
+
+
+def palette_of(sample: Image.Image, count: int) -> Image.Image:
+    """A palette of a picture: half of it the colours that are as far apart as can be, half those that fill it most."""
+    half = count // 2
+    palette = Image.new("P", (1, 1))
+    palette.putpalette([level for method in (Image.Quantize.MAXCOVERAGE, Image.Quantize.MEDIANCUT)
+                        for level in sample.quantize(half, method, dither=Image.Dither.NONE).getpalette()[:3 * half]])
+    return palette
 
 
 def write_film(folder: Path, file: Path) -> None:
@@ -86,10 +96,10 @@ def write_film(folder: Path, file: Path) -> None:
     sample = Image.new("RGB", (640, 1600))
     for k, at in enumerate((0, 1, len(frames) // 2, -1)):
         sample.paste(frames[at], (0, 400 * k))
-    palette = sample.quantize(96, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE)
+    palette = palette_of(sample, 112)
     packed = [one.quantize(palette=palette, dither=Image.Dither.NONE) for one in frames]
     packed[0].save(file, save_all=True, append_images=packed[1:], loop=0, optimize=True,
-                   duration=[stands.get(name, 200) for name in names])
+                   duration=[stands.get(name, 400) for name in names])
 
 
 if __name__ == "__main__":

@@ -275,15 +275,6 @@ def motions_of(parameters: Mapping[str, Any]) -> dict[int, VesselMotion]:
             for k, motion in _moving(parameters)}
 
 
-def drawn_cycles(parameters: Mapping[str, Any], walls: Sequence[np.ndarray], count: int = 32
-                 ) -> dict[int, list[dict[str, Any]]]:
-    """Return by the number of a wall that moves, the vessel first where there is one, what pictures draw: of each cycle
-    by itself the displacements (count, 3 n) of the wall's vertices, its period and the ramp in s, and its phase at time
-    0."""
-    return {k: _drawn(motion, float(parameters["metresPerUnit"]), _place_of(parameters), walls[k], count)
-            for k, motion in _moving(parameters)}
-
-
 def _moving(parameters: Mapping[str, Any]) -> Iterator[tuple[int, dict[str, Any]]]:
     own = [one for one in (parameters.get("vessel"), *(parameters.get("obstacles") or ())) if one]
     for k, wall in enumerate(own):
@@ -299,19 +290,3 @@ def _place_of(parameters: Mapping[str, Any]) -> Any:
     scale, position = (np.array(parameters.get(key, missing), dtype=float)
                        for key, missing in (("scale", (1, 1, 1)), ("position", (0, 0, 0))))
     return lambda points: turn.apply(scale * points) + position
-
-
-def _drawn(motion: dict[str, Any], metres_per_unit: float, place: Any, vertices: np.ndarray, count: int
-           ) -> list[dict[str, Any]]:
-    drawn = []
-    for own in [motion] + ([motion["breathing"]] if "breathing" in motion else []):
-        alone = {**{key: own[key] for key in ("period", "heartRate", "rigid", "centreline") if key in own},
-                 "spacing": motion.get("spacing", _SPACING), "rampTime": 0.0}
-        vessel = VesselMotion(alone, metres_per_unit, place)
-        rows = []
-        for k in range(count):
-            vessel.set_time(vessel.period * k / count)
-            rows.append((vessel.moved(vertices) - vertices).ravel())
-        drawn.append({"period": vessel.period, "phase": float(own.get("phase", 0.0)),
-                      "ramp": VesselMotion(motion, metres_per_unit, place).ramp, "displacements": np.array(rows)})
-    return drawn

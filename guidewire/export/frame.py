@@ -9,11 +9,9 @@ from typing import Any
 import numpy as np
 
 from guidewire.anatomy.mesh import AnatomyError
-from guidewire.anatomy.patient import Axes, axes_named
+from guidewire.anatomy.patient import axes_named
 from guidewire.logs.surfaces import Surface
 from guidewire.viewer.recording import units_of
-
-_AXES = {"left": "LR", "chest": "AP", "head": "SI"}  # by the name in `Session.describe`: towards it and away from it
 
 
 @dataclass(frozen=True)
@@ -70,16 +68,6 @@ def frame_of(parameters: Mapping[str, Any], patient: Mapping[str, Any] | None, a
             raise AnatomyError(f"--axes {asked}: nothing says how the axes of this run lie in the patient; patientAxes "
                                "of its scene, or --axes of the command anatomy, does")
         return Frame(np.eye(3), scale, "", unit)
-    own = _letters(patient)
+    to_lps = np.array([patient["left"], -np.asarray(patient["chest"], dtype=float), patient["head"]], dtype=float)
     wanted = axes_named(asked or "LPS")
-    return Frame(wanted.to_lps.T @ Axes(own).to_lps, scale, wanted.letters, unit)
-
-
-def _letters(patient: Mapping[str, Any]) -> str:
-    """Say where x, y and z of the run point."""
-    letters = [""] * 3
-    for name, (towards, away) in _AXES.items():
-        direction = np.asarray(patient[name], dtype=float)
-        axis = int(np.abs(direction).argmax())
-        letters[axis] = towards if direction[axis] > 0.0 else away
-    return "".join(letters)
+    return Frame(wanted.to_lps.T @ to_lps, scale, wanted.letters, unit)

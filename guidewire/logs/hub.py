@@ -85,15 +85,24 @@ def read_hub_curve(folder: Path) -> HubCurve:
     ------
     LogError : a log cannot be read, or says nothing of the hub; a study's folder has no log.
     """
+    first, *others = (read_hub(run) for run in runs_in(folder))
+    return HubCurve(folder.name, first, tuple(others))
+
+
+def runs_in(folder: Path) -> list[Path]:
+    """Return the folders of a run and of those of its ``check``, or of all runs of a study that left logs.
+
+    Raises
+    ------
+    LogError : no run of the study has a log.
+    """
     if not (folder / "runs.csv").is_file():
-        finer = sorted(path.parent for path in (folder / "check").glob("*/summary.json"))
-        return HubCurve(folder.name, read_hub(folder), tuple(read_hub(one) for one in finer))
+        return [folder, *sorted(path.parent for path in (folder / "check").glob("*/summary.json"))]
     runs = [path.parent for path in sorted(folder.glob("*/summary.json"))
             if any((path.parent / name).is_file() for name in LOG_NAMES)]
     if not runs:
         raise LogError(f"{folder}: no run of this study has a log: make them with --logs")
-    first, *others = (read_hub(run) for run in runs)
-    return HubCurve(folder.name, first, tuple(others))
+    return runs
 
 
 _SUDDEN = math.radians(1.0)  # of turning, within which a snap takes place

@@ -14,6 +14,7 @@ _ROW = re.compile(r"^\| `(?P<name>\w+)` \| (?P<allowed>.*) \| `(?P<default>.*)` 
 _KINDS = {
     "true or false": "switch", "one of": "word", "a number": "number", "a whole number": "whole",
     "three numbers": "vector", "a text": "text", "a list": "list", "null, {": "object", "null or {": "object",
+    "null or three numbers": "vector",
     "null or a number": "number", "null, true": "switch",
     "null or a list": "list", "null, a name": "end", '"" or three letters': "text",
 }

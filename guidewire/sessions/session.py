@@ -233,9 +233,12 @@ class Session:
         contrast agent goes: "middles" (x, y, z of each) and "radii" (units), None without a centreline; "target", the
         centreline from the inlet to it: "name", "reach" (units before it from which on it is reached), "indices" (of
         the centreline's points in anatomy.json), "points" (units), "radii", "distances"; None where the run has none;
-        and "patient", unit vectors to the patient's "left", "chest" and "head", None where they are unknown."""
+        "motions", of each wall the cycles in which it moves, as page/moving.js has them; and "patient", unit vectors to
+        the patient's "left", "chest" and "head" and "origin", where the scene's lies in a generic one, mm to the left,
+        the back and the head, None where they are unknown."""
         answer = self._ask("describe")
-        return {name: answer[name] for name in ("millimetresPerUnit", "instruments", "cells", "target", "patient")}
+        return {name: answer[name] for name in (
+            "millimetresPerUnit", "instruments", "cells", "target", "motions", "patient")}
 
     def inject(self, amount: float, rate: float, hub: int | None = 0) -> Agent:
         """Begin to inject contrast agent into the blood; an injection that goes on ends. Steps carry it on, and do not

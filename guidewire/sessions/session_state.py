@@ -178,6 +178,8 @@ class State:
     hub : of solver direct, what is read off at hub and tip; else None.
     catheters : those over the wire, outermost first.
     place : of the wire in the vessel; None where the scene has no inlet.
+    vessel_phase, vessel_displacement : phase of the first cycle of a vessel that moves, 0 to 1, and how far it is
+        displaced at the wire's tip, (3,), units; None where it stands still.
     """
 
     step: int
@@ -202,6 +204,8 @@ class State:
     hub: Hub | None
     catheters: tuple[CatheterState, ...]
     place: LumenPlace | None
+    vessel_phase: float | None
+    vessel_displacement: np.ndarray | None
     _session: ClassVar[Callable[..., Session | None]] = _no_session
 
     def picture(self, **view: Any) -> np.ndarray:
@@ -334,7 +338,9 @@ def fill(state: State, part: int, arrays: Mapping[str, np.ndarray]) -> None:
             strand_forces=arrays.get("strandForces"), wall_displacements=arrays.get("wallDisplacements"))
     elif part == INSTRUMENTS:
         vars(state).update(hub=Hub(**_members("hub", arrays["hub"][0])) if "hub" in arrays else None,
-                           catheters=_catheters(arrays), place=_place(arrays, ""))
+                           catheters=_catheters(arrays), place=_place(arrays, ""),
+                           vessel_phase=float(arrays["vesselPhase"][0, 0]) if "vesselPhase" in arrays else None,
+                           vessel_displacement=arrays.get("vesselDisplacement", [None])[0])
     else:
         vars(state).update({name: arrays.get(name) for name in _STRAINS},
                            energy=Energy(*arrays["energy"][0].tolist()) if "energy" in arrays else None)

@@ -46,6 +46,7 @@ SCENES = {    # of params: title and sentence
     "catheter-branch": ("Catheter into a branch", "Catheter to the ostium, wire into the branch, catheter after it."),
     "catheter-sheath": ("Catheter in a forked artery", "A 5 F catheter over a 0.035 inch wire, both out of a sheath."),
     "microcatheter": ("Siphon", "A microcatheter over a 0.014 inch wire, out of a guide catheter through a siphon."),
+    "coronary": ("Beating heart", "A wire of 0.014 inch into a coronary tree that beats 70 times a minute."),
     "aneurysm": ("Aneurysm", "A wire fed into a sac touches itself and coils up into a ball of loops."),
     "plectoneme": ("Plectoneme", "A wire under tension, turned at its end, makes a loop and winds up."),
     "guide-catheter": ("Three instruments", "A microcatheter over a wire in a guide catheter."),

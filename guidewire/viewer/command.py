@@ -9,6 +9,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from guidewire.anatomy.formats import is_anatomy
+from guidewire.logs.hub import read_hub_curve, runs_in
 from guidewire.logs.logs import LogError, extent, read_log
 from guidewire.logs.runs import PARAMETERS_NAME, read_run
 from guidewire.prepare import ROOT, PreparationError
@@ -81,17 +82,19 @@ def view(what: Sequence[Path], html: Path | None, frames: int | None, opens: boo
 
 
 def _read(folder: Path, frames: int, exact: bool) -> bytes:
-    run = read_run(folder)
-    middle, diagonal = extent(read_log(folder, "all"))
+    own, *others = runs_in(folder)    # of a study the first one
+    run = read_run(own)
+    curve = read_hub_curve(folder) if others and run.parameters.get("logHub") else None
+    middle, diagonal = extent(read_log(own, "all"))
     try:
-        with session_of(folder / PARAMETERS_NAME, native=False) as session:
+        with session_of(own / PARAMETERS_NAME, native=False) as session:
             described, surfaces = session.describe(), session.walls(middle, max(diagonal, 1.0))
-            return read_recording(run, surfaces, frames, described, session.places).to_bytes(exact)
+            return read_recording(run, surfaces, frames, described, session.places, curve).to_bytes(exact)
     except SessionError as error:    # its parameters cannot be used any more
         if run.parameters.get("vessel") or run.parameters.get("obstacles"):
             raise PreparationError(str(error)) from error
         _say(f"no fluoroscopy of {folder.name}: {error}")
-    return read_recording(run, [], frames, {}, lambda _: []).to_bytes(exact)
+    return read_recording(run, [], frames, {}, lambda _: [], curve).to_bytes(exact)
 
 
 def serve_scene(file: Path, build_runner: Callable[[], list[str]], instruments: HeldInstruments, opens: bool) -> None:

@@ -31,8 +31,8 @@ from guidewire.sessions.steered import RULES as STEERED
 from guidewire.viewer.cases import title_of
 from guidewire.viewer.held import HeldInstruments
 from guidewire.viewer.recording import (
-    ENERGIES, HUB, Channel, Recording, ending_of, facts_of, largest_shown, lumen_of, make_channels, moving_walls,
-    radius_of, read_off, sheath_of, units_of,
+    ENERGIES, HUB, Channel, Recording, ending_of, facts_of, largest_shown, lumen_of, make_channels, radius_of,
+    read_off, sheath_of, units_of,
 )
 
 PUSH_SPEED = 40.0              # units a second of in-game time, as in the Unity scene
@@ -49,7 +49,8 @@ _LONGEST_WAIT = 1.0            # s of wall time between two steps, however long 
 _PATIENCE = 3.0                # s that a start anew waits for a step under way, before the runner is ended
 _SMOOTHING = 0.1               # weight of the newest request in the step time shown
 _CHANGED = ("solver", "integrator", "sweepOrder", "elementContact", "constraintSolverSteps", "stretchStiffness",
-            "bendStiffness", "collisionStiffness", "damping", "timeStep")  # as in the Unity scene
+            "bendStiffness", "collisionStiffness", "damping", "timeStep",  # as in the Unity scene
+            "vessel.motion.heartRate", "vessel.motion.period")
 _NOT_ALLOWED = re.compile(r"(?:.*: )?(\w+) = .* is not allowed: (needs .*)", re.DOTALL)
 
 
@@ -98,6 +99,13 @@ def refusal(key: str, value: Any, message: str) -> str:
     named, needs = said.groups()
     asked = f"{key} = {json.dumps(value)}"
     return f"{asked} is not allowed: {needs}" if named == key else f"{asked} does not go with {named}, which {needs}"
+
+
+def value_at(parameters: Mapping[str, Any], key: str) -> Any:
+    """Return the value of a key, or of a member of one such as "vessel.motion.period"; None where there is none."""
+    for name in key.split("."):
+        parameters = parameters.get(name) if isinstance(parameters, Mapping) else None
+    return parameters
 
 
 class Page:
@@ -153,7 +161,6 @@ class LiveFrames:
         self._warnings = list(warnings)
         self._walls = session.walls()
         self.described = session.describe()
-        self._moving = moving_walls(session.parameters, self._walls)
         self._sheath = sheath_of(session.parameters, self._numbers(session.state, 0.0))
         self.begin()
 
@@ -181,7 +188,7 @@ class LiveFrames:
         return Recording(
             self._title, "", self._warnings, facts_of(session.parameters, None), radius_of(session.parameters),
             self._channels(cost, *states), name_walls(session.parameters, self._walls), self._sheath, self._largest,
-            self.described, soft_walls(session.parameters), self._moving,
+            self.described, soft_walls(session.parameters),
         )
 
     def frame(self, state: State, cost: float, *head: float) -> bytes:
@@ -211,6 +218,7 @@ class LiveFrames:
                for name, values in (("curvature", state.curvature), ("force", state.force), ("couple", state.couple),
                                     ("reaction", state.reaction), ("strand_forces", state.strand_forces))},
             "lumen": lumen_of([state.place]), **read_off(state),
+            "vessel_phase": None if state.vessel_phase is None else np.array([state.vessel_phase]),
         }
 
 
@@ -559,8 +567,8 @@ class LiveRun:
 
     def _status(self, page: Page) -> dict[str, Any]:
         session = self._session
-        values = {} if session is None else {key: session.parameters[key] for key in _CHANGED
-                                             if key in session.parameters}
+        values = {} if session is None else {key: value for key in _CHANGED
+                                             if (value := value_at(session.parameters, key)) is not None}
         state = None if session is None else session.state
         return {
             "hand": self._hand is page, "isFree": self._hand is None, "isPaused": self._is_paused,

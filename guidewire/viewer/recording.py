@@ -15,6 +15,7 @@ from typing import Any
 
 import numpy as np
 
+from guidewire.logs.hub import HubCurve
 from guidewire.logs.logs import LogError, read_columns, read_log
 from guidewire.logs.runs import Run
 from guidewire.logs.surfaces import Surface
@@ -73,7 +74,6 @@ class Recording:
     largest : as of `largest_shown`, where more was seen than these frames; None: of these.
     described : as of `Session.describe`; empty where it is not known: then there is no fluoroscopy.
     soft : the numbers of walls that give way.
-    moving : as of `drawn_cycles`.
     """
 
     title: str
@@ -87,7 +87,6 @@ class Recording:
     largest: np.ndarray | None = None
     described: Mapping[str, Any] = field(default_factory=dict)
     soft: Sequence[int] = ()
-    moving: Mapping[int, Sequence[Mapping[str, Any]]] = field(default_factory=dict)
 
     def to_bytes(self, exact: bool = True) -> bytes:
         """Return the block for the page; where it need not be exact, of 16 bits a number between the lowest and the
@@ -103,8 +102,6 @@ class Recording:
         } for channel, size in zip(self.channels, largest)]
         walls = [{
             "kind": kind, "isSoft": k in self.soft,
-            "cycles": [{**cycle, "displacements": arrays.quantise(cycle["displacements"].reshape(-1, 3), 3)}
-                       for cycle in self.moving.get(k, ())],
             "vertices": arrays.add(wall.vertices, "f4") if exact else arrays.quantise(wall.vertices, 3),
             "triangles": arrays.add(wall.triangles, "u2" if len(wall.vertices) <= _STEPS else "u4"),
         } for k, (kind, wall) in enumerate(self.walls)]
@@ -203,8 +200,8 @@ def make_channels(units: Units, numbers: Mapping[str, np.ndarray | None]) -> lis
         of the first catheter "contact_forces1"; "strand_forces" (k, n+1, 3), N; "wall_displacements" (k, n, 3), m, the
         same; "reaction" (k, 3); "couple" (k, n+1, 3), N m; "coreStrain" and "coreShare" (k, n+1); "kineticEnergy",
         "elasticEnergy" and "potentialEnergy" (k,), J; what a log has of the hub, (k,), with "hub." before its key;
-        "lumen" (k, 3), as of `lumen_of`; "inBody" (k,), spheres out of a sheath; "step_time" (k,), ms; "real_time" (k,),
-        times faster.
+        "lumen" (k, 3), as of `lumen_of`; "vessel_phase" (k,), 0 to 1; "inBody" (k,), spheres out of a sheath;
+        "step_time" (k,), ms; "real_time" (k,), times faster.
     """
     known = {name: values for name, values in numbers.items() if values is not None}
     positions = known["positions"]
@@ -248,6 +245,8 @@ def make_channels(units: Units, numbers: Mapping[str, np.ndarray | None]) -> lis
                                 np.linalg.norm(known["strand_forces"], axis=2)))
     channels += [Channel(name.replace("wall_d", "wallD"), "", "units", "vector", _flat(per_unit * known[name]))
                  for name in known if name.startswith("wall_displacements")]
+    if "vessel_phase" in known:
+        channels.append(Channel("vesselPhase", "phase of the vessel's cycle", "1", "frame", known["vessel_phase"]))
     if "lumen" in known:
         channels.append(Channel("lumen", "", "", "frame", known["lumen"]))
     channels += _at_the_hub(known, units, along)
@@ -353,7 +352,7 @@ def _twist(orientations: np.ndarray, lengths: np.ndarray) -> np.ndarray:
 
 
 def read_recording(run: Run, walls: Sequence[Surface], frames: int, described: Mapping[str, Any],
-                   places: Callable[[np.ndarray], Sequence[LumenPlace]]) -> Recording:
+                   places: Callable[[np.ndarray], Sequence[LumenPlace]], curve: HubCurve | None = None) -> Recording:
     """Return a run from its folder.
 
     Parameters
@@ -363,6 +362,7 @@ def read_recording(run: Run, walls: Sequence[Surface], frames: int, described: M
     frames : how many at most; of more entries they are taken at even distances, the first and the last among them.
     described : as of `Session.describe`.
     places : as `Session.places`; empty where that is not known.
+    curve : the run with others that tell how sure its forces at the hub are; None: there are none.
 
     Raises
     ------
@@ -382,7 +382,7 @@ def read_recording(run: Run, walls: Sequence[Surface], frames: int, described: M
     }
     numbers["lumen"] = lumen_of(places(log.positions[kept]))
     if (any(run.parameters.get(key) for key in ("logOrientations", "logContacts", "logStrains", "logHub"))
-            or run.parameters.get("sheath") is not None):
+            or run.parameters.get("sheath") is not None or any(described.get("motions", ()))):
         numbers.update(_read_more(run, log.steps[kept], len(log.catheters)))
     warnings = [line for line in (log.warning,) if line] + list((run.summary or {}).get("warnings", []))
     if len(finite) < len(log.steps):
@@ -391,20 +391,18 @@ def read_recording(run: Run, walls: Sequence[Surface], frames: int, described: M
     return Recording(
         run.folder.resolve().name, ending_of(run.outcome, summary.get("reliable"), summary.get("reason", "")), warnings,
         facts_of(run.parameters, run.summary), radius_of(run.parameters),
-        make_channels(units_of(run.parameters), numbers), name_walls(run.parameters, walls),
+        [*make_channels(units_of(run.parameters), numbers), *_bands(curve, log.time[kept])],
+        name_walls(run.parameters, walls),
         sheath_of(run.parameters, numbers), described=described, soft=soft_walls(run.parameters),
-        moving=moving_walls(run.parameters, walls),
     )
 
 
-def moving_walls(parameters: Mapping[str, Any], walls: Sequence[Surface]) -> dict[int, list[dict[str, Any]]]:
-    """Return what pictures draw of walls that move, as of `drawn_cycles`."""
-    own = [one for one in (parameters.get("vessel"), *(parameters.get("obstacles") or ())) if one]
-    if not walls or not any("motion" in one for one in own):
-        return {}
-    from guidewire.anatomy.motion import drawn_cycles
-
-    return drawn_cycles(parameters, [wall.vertices for wall in walls])
+def _bands(curve: HubCurve | None, times: np.ndarray) -> list[Channel]:
+    """Lowest and highest force and torque at the hub at these times, (k, 2)."""
+    return [] if curve is None else [
+        Channel(f"hub{name.title()}Band", "", unit, "frame", np.stack(
+            [np.interp(times, curve.log.time, side) for side in curve.band(name)], axis=1))
+        for name, unit in (("force", "N"), ("torque", "N m"))]
 
 
 def ending_of(outcome: str | None, reliable: bool | None, reason: str) -> str:
@@ -450,7 +448,7 @@ def _read_more(run: Run, steps: np.ndarray, catheters: int) -> dict[str, np.ndar
     shown = {"contactForces": "contact_forces", "wallDisplacements": "wall_displacements"}    # also of catheters
     names = {name: shown.get(name, name) for name in (
         "orientations", "reaction", "curvature", "force", "couple", "inBody", *ENERGIES, *CORE, *shown)}
-    names["strandForces"] = "strand_forces"
+    names |= {"strandForces": "strand_forces", "vesselPhase": "vessel_phase"}
     names |= {name: f"hub.{_ROWS[name].key}" for name in _HUB}
     for number in range(catheters):
         names |= {catheter_name(name, number): f"{to}{number + 1}" for name, to in shown.items()}

@@ -41,11 +41,12 @@ _SHOW = "show.json"
 _NOTICES = ("LICENSE", "THIRD-PARTY-NOTICES.md")
 _TEXTS = (".json", ".csv")
 _PIXELS = 320
-_PLACED = ("vessel", "sheath", "guidewireOffset", "contactDistance")    # what belongs to the vessel of a scene
+_PLACED = ("vessel", "sheath", "guidewireOffset", "contactDistance", "patientAxes", "patientOrigin")    # of a vessel
 _GROUND, _TISSUE, _METAL, _GOAL = (10, 14, 19), (196, 62, 52), (255, 226, 160), (62, 230, 160)
 _TURNS = (0.0, 30.0, -30.0, 60.0, -60.0, 90.0)    # of the C-arm, degrees
 _BACKGROUND = 0.75    # of a picture, as of Session.picture
 _MOMENTS = 80    # of a course
+_SHAPE = 16    # points of a wire in it, as of report.js
 _SEEN = 0.8    # part of its file's drive after which a scene is pictured
 _POLICY = ("default-src 'self'; script-src 'self' blob: 'wasm-unsafe-eval'; img-src 'self' data:; object-src 'none'; "
            "base-uri 'none'")
@@ -72,7 +73,7 @@ class _Scene:
     files: dict[str, Path]
     picture: Image.Image
     mission: Mission | None
-    ghost: dict[str, list[float]] | None
+    ghost: dict[str, list[Any]] | None
 
 
 def write_site(out: Path, scenes: Sequence[Path], is_compiled_ahead: bool, build_runner: Callable[[], list[str]]
@@ -174,10 +175,11 @@ def _read(file: Path) -> _Scene:
     return _Scene(next(iter(files)), title_of(file), sentence, files, picture, mission, ghost)
 
 
-def _course(session: Session, steps: int) -> dict[str, list[float]]:
-    """Return the course of a scene's own drive, as report.js has it: s, mm of the way to the target, N at a wall."""
+def _course(session: Session, steps: int) -> dict[str, list[Any]]:
+    """Return the course of a scene's own drive, as report.js has it: s, mm of the way to the target, N at a wall, and
+    points of the wire."""
     millimetres = 1e3 * session.parameters.get("metresPerUnit", 1e-3)
-    course: dict[str, list[float]] = {"time": [], "way": [], "force": []}
+    course: dict[str, list[Any]] = {"time": [], "way": [], "force": [], "wire": []}
     state = session.reset()
     first = state.place.left
     while True:
@@ -187,6 +189,10 @@ def _course(session: Session, steps: int) -> dict[str, list[float]]:
         course["time"].append(float(f"{state.time:.4g}"))
         course["way"].append(round(millimetres * (first - left), 1) + 0.0)
         course["force"].append(float(f"{largest:.4g}"))
+        last = len(state.positions) - 1
+        shown = last if state.hub is None else min(state.hub.spheres_in_body or last, last)
+        shape = state.positions[np.linspace(last - shown, last, _SHAPE).round().astype(int)]
+        course["wire"].append([round(float(value), 1) for value in shape.ravel()])
         if state.place.is_at_target or state.outcome:
             return course
         state = session.step(steps=max(1, steps // _MOMENTS))

@@ -294,14 +294,41 @@ namespace Guidewire.Cli
             answer["instruments"] = instruments;
             answer["cells"] = AgentRequest.Cells(session.Contrast?.Flow, _pictures.MillimetresPerUnit);
             answer["target"] = session.RouteToTarget();
+            answer["motions"] = new JArray(session.Parameters.Scene.Walls.Select(wall => MotionOf(wall.Motion)));
             answer["patient"] = session.Parameters.Scene.PatientAxes is PatientAxes axes ? new JObject
             {
                 ["left"] = Vector(axes.Left),
                 ["chest"] = Vector(axes.Chest),
                 ["head"] = Vector(axes.Head),
+                ["origin"] = session.Parameters.Scene.PatientOrigin is Vector3d origin ? Vector(origin) : null,
             }
             : null;
         }
+
+        // What pictures draw of a wall's motion, cycle by cycle; nothing where it stands still.
+        private static JArray MotionOf(WallMotion? motion)
+        {
+            const int Phases = 32;
+            var cycles = new JArray();
+            for (int m = 0; m < (motion?.Cycles.Count ?? 0); m++)
+            {
+                var points = motion!.PointsOf(m).SelectMany(branch => branch).DefaultIfEmpty()
+                    .SelectMany(point => new[] { (float)point.X, (float)point.Y, (float)point.Z }).ToArray();
+                cycles.Add(new JObject
+                {
+                    ["period"] = motion.Cycles[m].Period,
+                    ["phase"] = motion.Cycles[m].Phase,
+                    ["ramp"] = motion.RampTime,
+                    ["spacing"] = motion.Spacing,
+                    ["points"] = Floats(points),
+                    ["displacements"] = Floats(motion.Displacements(m, Phases)),
+                });
+            }
+            return cycles;
+        }
+
+        private static string Floats(float[] numbers) =>
+            Convert.ToBase64String(MemoryMarshal.AsBytes<float>(numbers));
 
         // The loads at which an instrument of a material bows out, N; nothing of one with gains.
         private static void AddLoads(SimulationParameters parameters, int instrument, JObject described)

@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 
-from guidewire.anatomy.motion import VesselMotion, beat_of_heart, drawn_cycles, motion_of, write_centreline
+from guidewire.anatomy.motion import VesselMotion, beat_of_heart, motion_of, write_centreline
 from guidewire.logs.logs import read_columns, read_log
 from guidewire.logs.runs import read_run
 from guidewire.prepare import ROOT
@@ -67,18 +67,6 @@ def test_the_centreline_goes_where_the_table_says(tmp_path):
     for k, phase in enumerate(phases):
         motion.set_time(phase * motion.period)
         np.testing.assert_allclose(motion.moved(points), points + moved[0][k], atol=0.02)
-
-
-def test_pictures_have_the_displacements_of_each_cycle(live, scene, tmp_path):
-    live.run(Request("moving", scene, tmp_path / "run"))
-    run = read_run(tmp_path / "run")
-    vertices = BEND + 0.5
-    first, second = drawn_cycles(run.parameters, [vertices], count=8)[0]
-    assert (first["period"], first["phase"], second["period"]) == (0.5, 0.3, 3.0)
-    alone = VesselMotion({**run.parameters["vessel"]["motion"], "breathing": {"period": 3, "rigid": {}}, "phase": 0,
-                          "rampTime": 0}, 1e-3, None)
-    assert first["displacements"].shape == (8, vertices.size) and alone.period == 0.5
-    assert np.abs(first["displacements"][0]).max() < 0.1 < np.abs(first["displacements"][2]).max()
 
 
 @pytest.mark.parametrize("change, expected", [

@@ -218,7 +218,8 @@ VALUES: dict[str, st.SearchStrategy] = {
     "contactDistance": st.one_of(st.just(0), log_uniform(1e-6, 1e-2)),
     "elasticSlip": log_uniform(1e-8, 1e-3), "selfFriction": st.just(0),  # else implicitEuler alone
     "contactStiffness": st.one_of(st.just(0), log_uniform(1.0, 1e8)),
-    "driveFile": st.sampled_from(["", str(DRIVE_TABLE)]), "patientAxes": st.sampled_from(["", "LPS", "RAS"]),
+    "driveFile": st.sampled_from(["", str(DRIVE_TABLE)]), "patientAxes": st.sampled_from(["", "LPS", "RAS+30"]),
+    "patientOrigin": st.sampled_from([None, [1.0, -2.0, 30.0]]),
     "proximalMotionFile": st.just(""), "distalMotionFile": st.just(""),  # need ends that go with them
     "logEvery": whole(1, 20), "logFilePath": st.sampled_from(["", "elsewhere", "Gefäß 1"]),
 }

@@ -2,8 +2,9 @@
 /** @typedef {[number, number, number]} Point */
 
 /**
- * How a patient lies: unit vectors to the left side, the chest and the head.
- * @typedef {{left: Point, chest: Point, head: Point}} Patient
+ * How a patient lies: unit vectors to the left side, the chest and the head, and where the origin lies in
+ * a generic one, mm to the left, the back and the head.
+ * @typedef {{left: Point, chest: Point, head: Point, origin?: Point | null}} Patient
  */
 /** Where nobody says it, as PatientAxes of the core. @type {Patient} */
 export const UNKNOWN = { left: [0, 1, 0], chest: [1, 0, 0], head: [0, 0, 1] };

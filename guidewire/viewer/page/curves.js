@@ -10,7 +10,9 @@ const MOST_DIGITS = 12;
 /**
  * Draws curves with their axes.
  * @param {HTMLCanvasElement} canvas
- * @param {{x: ArrayLike<number>, y: ArrayLike<number>, colour?: string, dash?: number[]}[]} curves colour: of the page's tokens
+ * @param {{x: ArrayLike<number>, y: ArrayLike<number>, colour?: string, dash?: number[], band?: ArrayLike<number>, isSudden?: boolean}[]}
+ *     curves colour: of the page's tokens; band: lowest and highest value at each x; isSudden: a cross marks a largest value in the
+ *     first step, where a start is sudden
  * @param {string} xLabel
  * @param {string} yLabel
  * @param {number} [cursor] x of a line through all @param {[number, number][]} [shades] from which x to which it is shaded, of
@@ -21,7 +23,7 @@ export function drawCurves(canvas, curves, xLabel, yLabel, cursor, shades) {
   const pen = prepare(canvas);
   const [width, height] = [canvas.clientWidth, canvas.clientHeight];
   const [left, right] = range(curves.map((curve) => curve.x));
-  const [low, high] = range(curves.map((curve) => curve.y));
+  const [low, high] = range(curves.flatMap(({ y, band }) => (band ? [y, band] : [y])));
   const [lowText, highText] = endLabels(low, high);
   const [leftText, rightText] = endLabels(left, right);
   const margin = GAP + Math.max(shades ? ALIGNED : 0, pen.measureText(lowText).width, pen.measureText(highText).width);
@@ -42,8 +44,17 @@ export function drawCurves(canvas, curves, xLabel, yLabel, cursor, shades) {
     pen.fillStyle = `${ink("--caution")}38`;
     pen.fillRect(toX(from), 14, toX(to) - toX(from), height - BOTTOM - 16);
   }
-  curves.forEach(({ x, y, colour, dash }, k) => {
-    pen.strokeStyle = colour ? ink(colour) : k === 0 ? ink("--ink") : SECOND;
+  curves.forEach(({ x, y, colour, dash, band, isSudden }, k) => {
+    pen.fillStyle = pen.strokeStyle = colour ? ink(colour) : k === 0 ? ink("--ink") : SECOND;
+    pen.globalAlpha = 0.25;
+    for (let i = 1; band && i < x.length; i++) {
+      pen.beginPath();
+      for (const [at, side] of [[i - 1, 0], [i - 1, 1], [i, 1], [i, 0]]) pen.lineTo(toX(x[at]), toY(band[2 * at + side]));
+      pen.fill();
+    }
+    pen.globalAlpha = 1;
+    const largest = Array.from(y).reduce((best, value, i) => (Math.abs(value) > Math.abs(y[best]) ? i : best), 0);
+    if (isSudden && largest < 2 && y.length > 2) pen.fillText("×", toX(x[largest]) - 3, toY(y[largest]) + 4);
     pen.setLineDash(dash ?? []);
     pen.beginPath();
     const stride = Math.max(1, Math.floor(x.length / 2000)); // more points than that are not seen

@@ -1,6 +1,6 @@
 // @ts-check
 import { Dial, Gauge } from "./gauges.js";
-import { byId, make } from "./panel.js";
+import { byId, make, named } from "./panel.js";
 import { Score, apart, largestForce, limitsOf, newtons } from "./score.js";
 import { hum } from "./sounds.js";
 import { fixed, say } from "./words.js";
@@ -38,7 +38,9 @@ export class Desk {
     this._legend = make("div", { className: "card", id: "legend" }, ...recordings.flatMap((one) =>
       one.instruments.map((instrument) => make("div", {}, swatch(instrument.colour),
         recordings.length > 1 ? `${instrument.name}, ${one.title}` : instrument.name))));
-    byId("desk").replaceChildren(this._gauges,
+    this._cycle = make("div", { className: "card", id: "cycle", hidden: !recording.channels.has("vesselPhase") },
+      make("span", {}), named("progress", "phase of the vessel's cycle", { max: 1 }));
+    byId("desk").replaceChildren(this._gauges, this._cycle,
       make("div", { className: "dials" }, this._insertion.element, this._turn.element), this._events, this._legend);
     const hasTarget = Boolean(recording.described?.target);
     byId("scoreReading").hidden = !hasTarget;
@@ -100,8 +102,21 @@ export class Desk {
     this._turn?.show(turn, `${Math.round((turn * 180) / Math.PI)}°`);
     byId("clock").textContent = `${fixed(at("time"), 1)} s`;
     byId("score").textContent = String(this.score.points);
+    this._showCycle(frame);
     this._showEvents();
     this._showWay(millimetres, apart(x.subarray(-3), tip));
+  }
+
+  /** Where a vessel that moves is in its cycle, and how fast that goes now. @param {number} frame */
+  _showCycle(frame) {
+    if (this._cycle.hidden) return;
+    const [phase, before] = [frame, frame - 1].map((k) => this._recording?.at("vesselPhase", Math.max(0, k))[0] ?? 0);
+    const [time, earlier] = [frame, frame - 1].map((k) => this._recording?.at("time", Math.max(0, k))[0] ?? 0);
+    const rate = time > earlier ? (phase - before + (phase < before ? 1 : 0)) / (time - earlier)
+      : 1 / (this._recording?.described?.motions?.[0]?.[0]?.period ?? NaN);
+    const [text, bar] = this._cycle.children;
+    text.textContent = say("vessel: {0} a minute, phase {1}", fixed(60 * rate, 0), fixed(phase, 2));
+    bar.value = phase;
   }
 
   /** How far it is to the target; without one how far the tip has come. @param {number} millimetres of a unit

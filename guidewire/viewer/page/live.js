@@ -87,6 +87,8 @@ export class Live {
     this.onProblem = () => {};
     this._steeredAt = -REMINDED; // ms: when a hand last moved a paused wire
     this._isReported = false;
+    /** Whose wire is shown beside one's own, with the report. @type {import("./report.js").Course | null} */
+    this._ghost = null;
     this._exchanged = 0; // how many of the run are shown
     this._exchangesAsked = Infinity; // as of the status that answers an exchange
     this._mark = 0;
@@ -370,12 +372,13 @@ export class Live {
     if (this.mission && judged) keepBest(this.mission.file, { ...judged.result, course: thinned(courseOf(recording, score.first)) });
     const ghost = best?.course ? { course: best.course, name: "ghost: your best" }
       : this.mission?.ghost ? { course: this.mission.ghost, name: "ghost: the recorded drive" } : null;
+    this._ghost = ghost?.course ?? null;
     const answer = await this._debrief.show({ recording, score, beam: spans, ghost, stars: judged?.text ?? "",
       title: isDone ? "target reached" : "report",
       rows: rowsOf(recording, score, { case: this.title, beam: seconds, pictures, stars: judged?.text,
         contrast: this.injector.injected, exchanges: this.status?.exchanges ?? [] }),
       answers: isDone ? [...(this.mission ? ["all missions"] : []), "go on", "try again"] : ["close"] });
-    this._back = null;
+    this._back = this._ghost = null;
     this.show();
     this.label();
     if (answer === "try again") this.send({ do: "reset" });
@@ -399,7 +402,9 @@ export class Live {
     if (!this.model) return;
     const { recording } = this.model;
     const frame = this._back ?? recording.count - 1;
-    this._panel.show([frame], recording.at("time", frame)[0]);
+    this._panel.show([frame]);
+    const now = recording.at("time", frame)[0];
+    this.model.showGhost(this._ghost?.wire?.[Math.max(0, this._ghost.time.filter((time) => time <= now).length - 1)]);
     this._desk.show(frame);
     this._xray.ask();
     const slider = byId("back");

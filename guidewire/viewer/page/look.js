@@ -31,6 +31,8 @@ export const plainLook = () => ({
   background: 0.75, noise: 0, seed: 0,
   blur: 0, isSubtracted: false, shift: [0, 0],
 });
+/** Brightness over the background's behind the most of a patient and the least, and how soon it changes with the optical depth. */
+const [DARKEST, LIGHTEST, STEEP] = [0.74, 1.1, 4];
 /** Pixels of a square picture; others have as many in all. */
 export const PIXELS = 512;
 
@@ -51,6 +53,10 @@ export class View {
     this.columns = this.rows = 0;
     /** @type {Lumen[]} */
     this._lumens = [];
+    /** Of a generic patient, with what it attenuates, 1/unit. @type {[Lumen, number][]} */
+    this._bodies = [];
+    /** Whether that is drawn. */
+    this.showsPatient = true;
     /** Lowest and highest corner of what is framed, units. @type {[Point, Point]} */
     this.box = [[0, 0, 0], [1, 1, 1]];
     this.millimetres = 1; // of a unit
@@ -70,6 +76,8 @@ export class View {
     this._peak = new Float64Array(0);
     /** Of the lumen along each ray, units; row by row from above. */
     this._thickness = new Float32Array(0);
+    /** Brightness of the patient over the background's. */
+    this._shade = new Float64Array(0);
     /** Counts how often walls that give way were moved. */
     this.moves = this._movesShown = 0;
     /** Brightness of background and vessel. */
@@ -81,8 +89,11 @@ export class View {
    * @param {import("./recording.js").Wall[]} walls @param {[Point, Point]} box what is framed, units
    * @param {number} millimetres of a unit @param {import("./carm.js").Patient | null} [patient] null: unknown
    * @param {{middles: number[], radii: number[]} | null} [cells] of the vessel's tree, units
+   * @param {import("./patient.js").Part[]} [body] of a generic patient
    */
-  set(walls, box, millimetres, patient = null, cells = null) {
+  set(walls, box, millimetres, patient = null, cells = null, body = []) {
+    this._bodies = body.map(({ vertices, triangles, attenuation }) => [new Lumen({ isStill: true,
+      vertices: Float32Array.from(vertices), triangles: Uint32Array.from(triangles) }), attenuation * millimetres]);
     this._cells = cells && new LumenCells(cells, box);
     this.parts = null;
     this.patient = patient ?? UNKNOWN;
@@ -98,6 +109,7 @@ export class View {
     [this.columns, this.rows, this.canvas.width, this.canvas.height] = [columns, rows, columns, rows];
     this._thickness = new Float32Array(columns * rows);
     this._brightness = new Float32Array(columns * rows);
+    this._shade = new Float64Array(columns * rows);
     this._agent = new Float64Array(columns * rows);
     this._peak = new Float64Array(columns * rows);
     this._seen = this._shown = this._cellsSeen = "";
@@ -134,7 +146,8 @@ export class View {
    * @returns {boolean} whether it has changed */
   _setBrightness(arm) {
     const { lao, cranial, vessel, contrast, background } = this.look;
-    const seen = [lao, cranial, ...arm.centre, arm.scale].join();
+    const seen = [lao, cranial, ...arm.centre, arm.scale, this.showsPatient].join();
+    if (seen !== this._seen) this._setShade(arm);
     if (seen !== this._seen || this.moves !== this._movesShown) {
       this._thickness.fill(0);
       for (const lumen of this._lumens) lumen.add(arm, this._thickness);
@@ -149,10 +162,25 @@ export class View {
     const factor = VESSELS[vessel];
     const attenuation = contrast * this.millimetres;
     const { _brightness: brightness, _thickness: thickness } = this;
-    for (let i = 0; i < brightness.length; i++) brightness[i] = background * factor(Math.exp(-attenuation * thickness[i]));
+    for (let i = 0; i < brightness.length; i++) {
+      brightness[i] = background * this._shade[i] * factor(Math.exp(-attenuation * thickness[i]));
+    }
     if (isFilled) this._fill(arm, seen);
     if (vessel === "map") this._map(seen);
     return true;
+  }
+
+  /** Exposes for the patient, within bounds, so that instruments and road maps stay easy to see. @param {CArm} arm */
+  _setShade(arm) {
+    const { _shade: shade } = this;
+    if (!this._bodies.length || !this.showsPatient) {
+      shade.fill(1);
+      return;
+    }
+    shade.fill(0);
+    for (const [body, attenuation] of this._bodies) body.sum(arm, shade, attenuation / arm.scale);
+    const mean = shade.reduce((sum, depth) => sum + depth, 0) / shade.length;
+    for (let i = 0; i < shade.length; i++) shade[i] = DARKEST + (LIGHTEST - DARKEST) / (1 + Math.exp(STEEP * (shade[i] - mean)));
   }
 
   /** As a road map, brightens what was filled with agent at its most. @param {string} seen */

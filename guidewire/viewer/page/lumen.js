@@ -7,7 +7,7 @@
  * triangles that it passes of their depths. Open rims are closed by a fan about their middle.
  */
 export class Lumen {
-  /** @param {Wall} wall */
+  /** @param {Pick<Wall, "vertices" | "triangles" | "isStill">} wall */
   constructor(wall) {
     this._wall = wall;
     const vertices = [...wall.vertices];
@@ -24,8 +24,14 @@ export class Lumen {
    */
   add(arm, thickness) {
     const sum = new Float64Array(thickness.length);
-    this._project(arm, (pixel, depth, sign) => { sum[pixel] += sign * depth; });
+    this.sum(arm, sum, 1);
     for (let i = 0; i < sum.length; i++) thickness[i] += Math.max(0, sum[i]) / arm.scale;
+  }
+
+  /** Adds so many times what rays pass, pixels' sides. @param {import("./carm.js").CArm} arm @param {Float64Array} sum
+   * @param {number} times */
+  sum(arm, sum, times) {
+    this._project(arm, (pixel, depth, sign) => { sum[pixel] += times * sign * depth; });
   }
 
   /**
@@ -43,7 +49,7 @@ export class Lumen {
 
   /** @param {import("./carm.js").CArm} arm @param {Take} take */
   _project(arm, take) {
-    if (this._wall.isSoft) this._vertices.set(this._wall.vertices); // middles of rims stay
+    if (!this._wall.isStill) this._vertices.set(this._wall.vertices); // middles of rims stay
     const point = [0, 0, 0];
     for (let i = 0; i < this._vertices.length; i += 3) {
       arm.project(this._vertices, i, point);

@@ -7,7 +7,8 @@ import {
 import { ramp, roundUp, row } from "./colours.js";
 import { DrawnInstrument } from "./instrument.js";
 import { throughTips } from "./path.js";
-import { glow, ringAt, tissue } from "./tissue.js";
+import { SHAPE } from "./report.js";
+import { glow, rimOfLight, ringAt, tissue } from "./tissue.js";
 
 /** @typedef {import("./recording.js").Recording} Recording */
 
@@ -17,6 +18,9 @@ const [STEEL, GOLD] = ["#dfe7ee", "#ffb84a"].map((colour) => new Color(colour));
 const TIP = 20; // mm of it
 const FOLD = 6; // mm of a vessel's wall that has one fold
 const GLOW = 30; // points of the screen, at least
+/** Of a patient. @type {Record<string, import("three").Material>} */
+const RIMS = { skin: rimOfLight(new Color(0.53, 0.66, 0.78), 0.5, 3.2), bone: rimOfLight(new Color(0.53, 0.66, 0.78), 0.55, 1.5) };
+const VIOLET = [0.72, 0.55, 1]; // of a ghost
 const ARROWS = 0x7fe07f;
 const LONGEST_ARROW = 0.2; // fraction of the wire's length
 const LEAST_RADIUS = 2.5; // points of the screen that a wire takes so that it is seen
@@ -46,10 +50,15 @@ export class Model {
     this.arrows.frustumCulled = false;
     const { target } = recording.described ?? {};
     this._glow = glow(0xffa03c);
-    if (target) this.group.add(ringAt(target));
+    this._ghost = new DrawnInstrument(SHAPE, false, (material) => this._tinted(material));
+    this._ghost.group.visible = false;
+    this._ring = target && ringAt(target);
+    if (this._ring) this.group.add(this._ring);
     for (const wall of recording.walls) this.walls.add(...surfaces(wall, recording.millimetres));
+    this.patient = new Group();
+    for (const part of recording.body.filter(({ kind }) => kind in RIMS)) this.patient.add(rim(part));
     this._moves = 0; // of walls, that are in the picture
-    this.group.add(...this.drawn.map((one) => one.group), this.arrows, this.walls, this._glow);
+    this.group.add(...this.drawn.map((one) => one.group), this.arrows, this.walls, this.patient, this._glow, this._ghost.group);
     this._sheath = recording.sheath && makeSheath(recording.sheath, SHEATH * Math.max(
       ...recording.centrelines.map((_, k) => recording.radiusOf(k))), [
       this._tinted(new MeshLambertMaterial({ color: SHEATH_COLOUR })),
@@ -101,6 +110,7 @@ gl_FragColor.rgb = gl_FragColor.rgb * (1.0 - tint.a) + tint.rgb;`)}`;
     const positions = this.recording.at("positions", frame);
     const first = this.recording.firstShown(frame);
     this.recording.moveWalls(frame);
+    this._ring?.position.fromArray(this.recording.targetAt(frame));
     if (this.recording.moves !== this._moves) {
       this._moves = this.recording.moves;
       for (const part of this.walls.children) {
@@ -118,6 +128,14 @@ gl_FragColor.rgb = gl_FragColor.rgb * (1.0 - tint.a) + tint.rgb;`)}`;
     this._glow.scale.setScalar(Math.max(5 * this.recording.radius * this._drawnThickness, GLOW * this.unitsPerPoint));
     this._paint(full);
     this._point(positions, first);
+  }
+
+  /** Shows where another wire was at this moment, or none. @param {number[]} [points] units */
+  showGhost(points) {
+    this._ghost.group.visible = points !== undefined;
+    if (!points) return;
+    this._ghost.place(Float64Array.from(points), this.recording.radius * this._drawnThickness, 0);
+    this._ghost.paint((_, colour) => colour.splice(0, 3, ...VIOLET));
   }
 
   /** How many times its radius the wire's drawn one is. */
@@ -257,6 +275,15 @@ function makeSheath(ends, radius, [surface, stroke]) {
   tube.position.copy(exit).add(back).multiplyScalar(0.5);
   tube.quaternion.setFromUnitVectors(new Vector3(0, 1, 0), along.normalize());
   return new Group().add(tube, new Line(new BufferGeometry().setFromPoints([back, exit]), stroke));
+}
+
+/** What of a patient is seen from outside, as rims of light. @param {import("./patient.js").Part} part */
+function rim({ kind, vertices, triangles }) {
+  const geometry = new BufferGeometry().setAttribute("position", new BufferAttribute(Float32Array.from(vertices), 3)).setIndex(triangles);
+  geometry.computeVertexNormals();
+  const mesh = new Mesh(geometry, RIMS[kind]);
+  mesh.layers.set(BEHIND);
+  return mesh;
 }
 
 /** A wall as one looks into it: its far side, and its near side faintly. @param {import("./recording.js").Wall} wall

@@ -6,6 +6,8 @@ import { say } from "./words.js";
 /** @typedef {import("./model.js").Model} Model */
 
 const BETWEEN_CURVES = 100; // ms
+/** What curves are drawn over: label, unit, and how many of that the channel's is. @type {Record<string, [string, string, number]>} */
+const OVER = { time: ["time", "s", 1], hubInsertion: ["insertion", "mm", 1000], hubTurn: ["rotation of the hub", "degrees", 180 / Math.PI] };
 const RELIABLE = /^([^:]*: )?(finished|converged), reliable:/;
 
 /** @param {string} id @returns {any} */
@@ -49,13 +51,12 @@ export class Panel {
     this.models = [];
     /** @type {number[]} */
     this._frames = [];
-    this._time = 0;
     this._full = 1;
     this._drawn = -BETWEEN_CURVES;
     this._isWaiting = false;
     this._coloured = 1; // how many of them take the colours; the others are plain
-    for (const id of ["colour", "first", "second", "thickness"]) byId(id).onchange = changed;
-    for (const id of ["walls", "arrows", "follow"]) byId(id).onchange = changed;
+    for (const id of ["colour", "over", "first", "second", "thickness"]) byId(id).onchange = changed;
+    for (const id of ["walls", "patient", "arrows", "follow"]) byId(id).onchange = changed;
     byId("wire").ontoggle = changed;
     stage.onThickness = () => this._showThickness();
   }
@@ -69,6 +70,8 @@ export class Panel {
     const along = channels.filter((channel) => channel.place === "sphere" || channel.place === "element");
     const overTime = channels.filter((channel) => channel.place === "frame" && channel.label);
     fill(byId("colour"), [["", "metal"], ...along.map((channel) => [channel.name, channel.label])], 0);
+    fill(byId("over"), Object.entries(OVER).filter(([name]) => recording.channels.has(name)).map(([name, [label]]) => [name, label]), 0);
+    if (models.length > 1) byId("wire").open = true;
     fill(byId("first"), overTime.map((channel) => [channel.name, channel.label]), 0);
     fill(byId("second"), overTime.map((channel) => [channel.name, channel.label]), 1);
     byId("facts").replaceChildren(...models.flatMap((model) => [
@@ -107,10 +110,8 @@ export class Panel {
   /**
    * Puts what is chosen into the models and asks for a picture.
    * @param {number[]} frames of each model
-   * @param {number} time s, of the line in the curves
    */
-  show(frames, time) {
-    this._time = time;
+  show(frames) {
     const name = byId("colour").value;
     const coloured = this.models.slice(0, this._coloured).filter((model) => model.recording.channels.has(name));
     const full = coloured.length ? Math.max(...coloured.map((model) => model.full(name))) : 1;
@@ -119,6 +120,7 @@ export class Panel {
       model.isPlain = k >= this._coloured;
       model.thickness = Number(byId("thickness").value) || null;
       model.walls.visible = byId("walls").checked && (k === 0 || this._coloured > 1);
+      model.patient.visible = byId("patient").checked && (k === 0 || this._coloured > 1);
       model.arrows.visible = byId("arrows").checked;
       model.show(frames[k], full);
     });
@@ -166,11 +168,15 @@ export class Panel {
   /** @param {string} which of the two */
   _drawOverTime(which) {
     const name = byId(which).value;
-    const drawn = this.models.filter(({ recording }) => recording.channels.has(name));
+    const over = byId("over").value;
+    const [axis, unitOver, times] = OVER[over];
+    const drawn = this.models.filter(({ recording: { channels } }) => channels.has(name) && channels.has(over));
     if (!drawn.length) return;
     const { label, unit } = drawn[0].recording.channel(name);
-    const curves = drawn.map(({ recording }) => ({ x: recording.overTime("time"), y: recording.overTime(name) }));
-    drawCurves(byId(`${which}Curve`), curves, "t, s", `${say(label)}, ${unit}`, this._time);
+    const curves = drawn.map(({ recording }) => ({ x: recording.overTime(over).map((value) => times * value), y: recording.overTime(name),
+      band: recording.channels.get(`${name}Band`)?.values, isSudden: name.startsWith("hub") }));
+    const cursor = times * drawn[0].recording.at(over, this._frames[this.models.indexOf(drawn[0])])[0];
+    drawCurves(byId(`${which}Curve`), curves, `${say(axis)}, ${say(unitOver)}`, `${say(label)}, ${unit}`, cursor);
   }
 }
 

@@ -17,15 +17,9 @@
  * @typedef {object} Wall
  * @property {string} kind "vessel" or "obstacle"
  * @property {boolean} isSoft whether it gives way
+ * @property {boolean} [isStill] whether it neither gives way nor moves
  * @property {Float32Array} vertices x, y, z each, units; where it gives way, as they are drawn now
  * @property {Uint32Array} triangles three indices each
- * @property {Cycle[]} cycles of its motion; none where it stands still
- *
- * @typedef {object} Cycle
- * @property {number} period s
- * @property {number} phase at time 0
- * @property {number} ramp s in which the motion grows from 0
- * @property {Float32Array} displacements of the vertices at phases an even distance apart
  *
  * @typedef {object} Recorded
  * @property {string} title
@@ -38,7 +32,7 @@
  * @property {[number[], number[]] | null} sheath where it ends, and where it is seen to begin, units
  * @property {{millimetresPerUnit: number, target: import("./target.js").Route | null,
  *     cells: {middles: number[], radii: number[]} | null,
- *     patient: import("./carm.js").Patient | null,
+ *     patient: import("./carm.js").Patient | null, motions?: import("./moving.js").Cycle[][],
  *     instruments: (import("./pieces.js").Instrument & {title: string})[]} | null} described what pictures need to know
  *
  * @typedef {object} Packed where an array stands, and what its numbers mean
@@ -50,6 +44,8 @@
  */
 
 import { press } from "./indentation.js";
+import { Carried } from "./moving.js";
+import { patientAround } from "./patient.js";
 
 const TYPES = { f8: Float64Array, f4: Float32Array, u2: Uint16Array, u4: Uint32Array };
 const COLOURS = ["#4aa8ff", "#ff9d2e", "#b58cff", "#5fd38d"]; // of instruments, the first run's first
@@ -69,8 +65,6 @@ export function unpackRecording(bytes) {
       isSoft: wall.isSoft,
       vertices: Float32Array.from(unpack(bytes, start, wall.vertices)),
       triangles: Uint32Array.from(unpack(bytes, start, wall.triangles)),
-      cycles: (wall.cycles ?? []).map((/** @type {any} */ cycle) =>
-        ({ ...cycle, displacements: Float32Array.from(unpack(bytes, start, cycle.displacements)) })),
     })),
   };
 }
@@ -86,10 +80,18 @@ export class Recording {
     this.radius = radius;
     this.channels = new Map(channels.map((channel) => [channel.name, channel]));
     this.walls = walls;
-    /** Vertices at rest, of walls that give way or move. @type {Map<Wall, Float32Array>} */
-    this._atRest = new Map(walls.filter((wall) => wall.isSoft || wall.cycles.length > 0)
-      .map((wall) => [wall, wall.vertices.slice()]));
+    /** Vertices at rest, of walls that give way or move. @type {Map<Wall, Carried>} */
+    this._atRest = new Map();
+    walls.forEach((wall, k) => {
+      const cycles = described?.motions?.[k] ?? [];
+      wall.isStill = !wall.isSoft && !cycles.length;
+      if (!wall.isStill) this._atRest.set(wall, new Carried(wall.vertices.slice(), cycles));
+    });
+    /** The target, which goes with its vessel. */
+    this._target = new Carried(Float32Array.from(described?.target?.points.at(-1) ?? []), described?.motions?.[0] ?? []);
     this._isMoved = false;
+    /** @type {import("./patient.js").Part[] | undefined} */
+    this._body = undefined;
     /** Counts how often vertices were moved. */
     this.moves = 0;
     this.sheath = sheath;
@@ -147,6 +149,12 @@ export class Recording {
     return /** @type {[[number, number, number], [number, number, number]]} */ ([low, high]);
   }
 
+  /** What of a generic patient lies around the vessel. */
+  get body() {
+    const { patient } = this.described ?? {};
+    return this._body ??= patient ? patientAround(patient, this.box, this.millimetres) : [];
+  }
+
   /** Number of frames. */
   get count() {
     return this._count;
@@ -174,22 +182,32 @@ export class Recording {
   moveWalls(frame) {
     const wasMoved = this._isMoved;
     this._isMoved = false;
-    for (const [wall, rest] of this._atRest) {
-      if (wasMoved) wall.vertices.set(rest);
-      for (const cycle of wall.cycles) {
-        displace(wall.vertices, cycle, this.at("time", frame)[0]);
-        this._isMoved = true;
-      }
+    for (const [wall, carried] of this._atRest) {
+      if (wasMoved || carried.isMoving) carried.move(wall.vertices, ...this._moment(frame));
+      if (carried.isMoving) this._isMoved = true;
       if (!wall.isSoft) continue;
       this.centrelines.forEach((name, k) => {
         const displacements = `wallDisplacements${k || ""}`;
         if (!this.channels.has(displacements)) return;
-        if (press(rest, wall.vertices, this.at(name, frame), this.at(displacements, frame), this.radiusOf(k))) {
+        if (press(carried.rest, wall.vertices, this.at(name, frame), this.at(displacements, frame), this.radiusOf(k))) {
           this._isMoved = true;
         }
       });
     }
     if (wasMoved || this._isMoved) this.moves++;
+  }
+
+  /** The time of a frame, s, and the phase of the vessel's first cycle, where that is known. @param {number} frame
+   * @returns {[number, number?]} */
+  _moment(frame) {
+    return [this.at("time", frame)[0], this.channels.has("vesselPhase") ? this.at("vesselPhase", frame)[0] : undefined];
+  }
+
+  /** Where the target is in a frame, units; without one no place. @param {number} frame */
+  targetAt(frame) {
+    const place = this._target.rest.slice();
+    this._target.move(place, ...this._moment(frame));
+    return place;
   }
 
   /** The last sphere that is in a sheath, or the first of all. @param {number} frame */
@@ -253,22 +271,4 @@ function unpack(bytes, start, packed) {
   const every = low.length;
   const span = high.map((value, k) => value - low[k]);
   return Float64Array.from(numbers, (value, k) => low[k % every] + (value / 65535) * span[k % every]);
-}
-
-/**
- * Adds the displacements of a cycle of a wall's motion at a time, linear between the phases that are known.
- * @param {Float32Array} vertices @param {Cycle} cycle @param {number} time s
- */
-function displace(vertices, cycle, time) {
-  const count = cycle.displacements.length / vertices.length;
-  const at = (cycle.phase + time / cycle.period) * count;
-  const before = Math.floor(at);
-  const u = cycle.ramp > 0 ? Math.min(1, Math.max(0, time / cycle.ramp)) : 1;
-  const ramp = u ** 3 * (10 - u * (15 - 6 * u));
-  const next = ramp * (at - before);
-  const one = (((before % count) + count) % count) * vertices.length;
-  const two = ((((before + 1) % count) + count) % count) * vertices.length;
-  for (let k = 0; k < vertices.length; k++) {
-    vertices[k] += (ramp - next) * cycle.displacements[one + k] + next * cycle.displacements[two + k];
-  }
 }

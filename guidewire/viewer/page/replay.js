@@ -102,7 +102,7 @@ export class Replay {
   show() {
     this._slider.value = String((this.time - this._start) / (this._end - this._start || 1));
     const { frames } = this;
-    this._panel.show(frames, this.time);
+    this._panel.show(frames);
     this._desk.show(frames[0]);
     this._xray.ask();
     byId("title").textContent = this.models.map(({ recording }) => recording.title).join(" and ");

@@ -9,11 +9,13 @@ import { fixed, say } from "./words.js";
 /**
  * @typedef {import("./score.js").Score} Score
  * @typedef {import("./recording.js").Recording} Recording
- * @typedef {{time: number[], way: number[], force: number[]}} Course s, mm of the way to the target, N at a wall
+ * @typedef {{time: number[], way: number[], force: number[], wire?: number[][]}} Course s, mm of the way to the target, N at a wall,
+ *     and points of the wire, units
  */
 
 const PULLED = 5e-3; // m that the hub goes back where it counts
 const SAMPLES = 200; // of a course that is kept
+export const SHAPE = 16; // points of a wire in it
 const IDLE = 0.3; // of the time with the beam on, in which nothing moves
 
 /**
@@ -55,16 +57,24 @@ export function courseOf(recording, first) {
   const frames = Array.from({ length: recording.count }, (_, frame) => frame);
   const hasTarget = recording.channels.has("lumen") && Number.isFinite(first);
   return { time: frames.map((frame) => recording.at("time", frame)[0]), force: frames.map((frame) => largestForce(recording, frame)),
+    wire: frames.map((frame) => shapeAt(recording, frame)),
     way: hasTarget ? frames.map((frame) => Math.round(10 * recording.millimetres * (first - recording.at("lumen", frame)[0])) / 10) : [] };
+}
+
+/** Points of the wire, from where it comes out of a sheath to its tip. @param {Recording} recording @param {number} frame */
+function shapeAt(recording, frame) {
+  const [x, first] = [recording.at("positions", frame), recording.firstShown(frame)];
+  return Array.from({ length: SHAPE }, (_, k) => Math.round(first + ((x.length / 3 - 1 - first) * k) / (SHAPE - 1)))
+    .flatMap((i) => [...x.subarray(3 * i, 3 * i + 3)].map((value) => Math.round(10 * value) / 10));
 }
 
 /** A course with fewer samples, each with the largest force of those that it stands for. @param {Course} course
  * @returns {Course} */
-export function thinned({ time, way, force }) {
+export function thinned({ time, way, force, wire = [] }) {
   const every = Math.ceil(time.length / SAMPLES);
   const at = time.flatMap((_, k) => (k % every ? [] : [k]));
   const short = (/** @type {number} */ value) => Number(value.toPrecision(4));
-  return { time: at.map((k) => short(time[k])), way: at.map((k) => short(way[k])),
+  return { time: at.map((k) => short(time[k])), way: at.map((k) => short(way[k])), wire: at.map((k) => wire[k]),
     force: at.map((k) => short(Math.max(...force.slice(k, k + every)))) };
 }
 
@@ -162,7 +172,7 @@ export class Debrief {
       };
       return { name, label, canvas };
     });
-    const inUnits = (/** @type {Course} */ one) => ({ ...one, force: one.force.map((value) => (unit === "mN" ? 1000 : 1) * value) });
+    const inUnits = (/** @type {Course} */ { time, way, force }) => ({ time, way, force: force.map((value) => (unit === "mN" ? 1000 : 1) * value) });
     this._course = { ...inUnits(course), beam: course.time.map((moment) => Number(beam.some(([from, to]) => moment > from && moment <= to))) };
     [this._ghost, this._pulls] = [ghost && inUnits(ghost.course), pulls];
     this._slider = named("input", "moment of the run", { type: "range", min: 0, max: recording.count - 1, value: recording.count - 1,

@@ -15,7 +15,7 @@ import { factsOf, largestShown, makeChannels, radiusOf, sheathOf } from "./chann
 import { HeldInstruments } from "./steered.js";
 
 const HEAD = 4; // numbers before the arrays of a step
-const ARRAYS = /^(positions|orientations|catheter|lumen|contactForces|strandForces|wallDisplacements)\d+$|^(positions|velocities|orientations|angularVelocities|contactForces|strandForces|wallDisplacements|reaction|hub|lumen|strain|force|curvature|couple|energy)$/;
+const ARRAYS = /^(positions|orientations|catheter|lumen|contactForces|strandForces|wallDisplacements)\d+$|^(positions|velocities|orientations|angularVelocities|contactForces|strandForces|wallDisplacements|reaction|hub|lumen|vesselPhase|vesselDisplacement|strain|force|curvature|couple|energy)$/;
 const NOT_ALLOWED = /^(?:.*: )?(\w+) = .* is not allowed: (needs .*)$/s;
 
 /** What the program does not do. The message is one line. */
@@ -330,7 +330,6 @@ export class Run {
       const part = (/** @type {number} */ from, /** @type {number} */ to) => bytes.slice(at + from, at + to).buffer;
       walls.push({ kind: walls.length === 0 && this._parameters?.vessel ? "vessel" : "obstacle",
         isSoft: ["wallStiffness", "modulus"].some((key) => key in (own[walls.length] ?? {})),
-        cycles: [], // of a wall that moves the site's page draws the shape of the file
         vertices: Float32Array.from(new Float64Array(part(8, 8 + 8 * corners))),
         triangles: new Uint32Array(part(8 + 8 * corners, 8 + 8 * corners + 4 * sides)) });
       at += 8 + 8 * corners + 4 * sides;
@@ -353,8 +352,9 @@ export class Run {
   _say() {
     const { changed, choices, paces } = this._rules;
     const parameters = this._parameters ?? {};
-    const values = Object.fromEntries(changed.filter((/** @type {string} */ key) => key in parameters)
-      .map((/** @type {string} */ key) => [key, parameters[key]]));
+    const valueAt = (/** @type {string} */ key) => key.split(".").reduce((/** @type {any} */ part, name) => part?.[name], parameters);
+    const values = Object.fromEntries(changed.filter((/** @type {string} */ key) => valueAt(key) !== undefined)
+      .map((/** @type {string} */ key) => [key, valueAt(key)]));
     this._tell({ status: {
       hand: true, isFree: false, isPaused: this._isPaused, isWaiting: this._isWaiting, isSteered: this._isSteered, opened: this._opened,
       scene: this._scene, scenes: this._scenes, titles: this._scenes.map((scene) => this._titleOf(scene)),

@@ -255,7 +255,7 @@ export class Stage {
     if (this._models.filter((model) => model.takeScale(unitsPerPoint)).length) this.onThickness();
     this._panes.forEach((pane, k) => {
       pane.scene.add(this._light);
-      const shown = pane.models.flatMap(({ walls, recording }) => [walls.visible, recording.moves]);
+      const shown = pane.models.flatMap(({ walls, patient, recording }) => [walls.visible, patient.visible, recording.moves]);
       const seen = [...this._camera.matrixWorld.elements, paneWidth, height, ...shown].join();
       if (seen !== pane.seen && this._isSlow && pane.seen) this._drawCoarseWalls(pane, paneWidth, height);
       else if (seen !== pane.seen) this._drawWalls(pane, paneWidth, height);

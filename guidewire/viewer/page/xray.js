@@ -23,7 +23,7 @@ const CLOSE_UP = 80; // mm
 const WORN = { noise: 0.022 }; // how a picture looks on the screen
 const MOST_CRANIAL = 60;
 const CLEAR = 1.7; // pixels: half of the width that an instrument has at least in a picture
-const [WIRE_DEPTH, CATHETER_DEPTH] = [1.5, 0.4]; // half of what rays through the middle are weakened by, at least
+const [WIRE_DEPTH, CATHETER_DEPTH] = [2.5, 0.4]; // half of what rays through the middle are weakened by, at least
 
 /** The X-ray view: the C-arm, its buttons and mouse, and the target's mark. */
 export class Xray {
@@ -85,7 +85,9 @@ export class Xray {
     this.fluoroscopy.look = { ...plainLook(), ...WORN };
     this._patient = recording.described?.patient ?? null;
     /** @type {Parameters<Fluoroscopy["set"]>} */
-    const seen = [recording.walls, recording.box, recording.millimetres, this._patient, recording.described?.cells ?? null];
+    const seen = [recording.walls, recording.box, recording.millimetres, this._patient, recording.described?.cells ?? null,
+      recording.body];
+    byId("patient").parentElement.hidden = !recording.body.length;
     this.fluoroscopy.set(...seen);
     this.second.set(...seen);
     this.beam.restart();
@@ -95,8 +97,8 @@ export class Xray {
     this._zoom = 1;
     this._fill();
     byId("measured").onchange = () => this.ask();
-    const route = recording.described?.target?.points;
-    if (route && !this._patient) this._turn(widest(route, this.fluoroscopy.patient), 0);
+    const route = recording.described?.target?.points.flat();
+    if (route) this._turn(widest(this._patient ? recording.walls[0]?.vertices ?? route : route, this.fluoroscopy.patient), 0);
     this.onTurned();
     this.ask();
   }
@@ -230,6 +232,7 @@ export class Xray {
     look.seed = this._frames++;
     const instruments = this._clearInstruments;
     this.fluoroscopy.moves = recording.moves;
+    this.fluoroscopy.showsPatient = byId("patient").checked && !byId("measured").checked;
     this.fluoroscopy.draw(instruments, !byId("measured").checked);
     this.cine.take(this.fluoroscopy.canvas);
     this.beam.take(recording.at("time", this._models[0].frame)[0]);
@@ -252,8 +255,9 @@ export class Xray {
 
   _label() {
     const { lao, cranial, field } = this.fluoroscopy.look;
+    const [{ recording, watchedTip }] = this._models;
     byId("arm").textContent = [this.fluoroscopy.angles.join("  "), [`${Math.round(field ?? 0)} mm`, say("beam {0} s", fixed(this.beam.seconds, 1))].join(" · "),
-      ...(this._patient ? [] : [say("front assumed")]),
+      ...(!this._patient ? [say("front assumed")] : this.fluoroscopy.showsPatient && recording.body.length ? [say("generic patient")] : []),
       ...(this.fluoroscopy.look.vessel === "map" && !this.fluoroscopy.hasMap ? [say("no injection seen from here")] : []),
       ...(this.beam.isOn ? [] : [say("beam off: last image")])].join("\n");
     /** @type {any} */ (document.querySelector("#carm g")).style.transform = `rotate(${lao}deg)`;
@@ -264,10 +268,9 @@ export class Xray {
       button.setAttribute("aria-pressed", String(Number(button.dataset.lao) === Math.round(lao)
         && Number(button.dataset.cranial) === Math.round(cranial)));
     }
-    const [{ recording, watchedTip }] = this._models;
     const target = recording.described?.target;
     this._mark("tipMark", watchedTip);
-    this._mark("reticle", target?.points.at(-1));
+    this._mark("reticle", target ? recording.targetAt(this._models[0].frame) : undefined);
     byId("reticle").lastElementChild.textContent = target ? byId("left").textContent : "";
   }
 
@@ -376,13 +379,18 @@ export class Xray {
   }
 }
 
-/** The turn of the C-arm from which a way is seen at its widest, degrees. @param {Point[]} route
+/** The turn of the C-arm from which places are seen at their widest, degrees. @param {ArrayLike<number>} places x, y, z each
  * @param {import("./carm.js").Patient} patient */
-function widest(route, { left, chest }) {
+function widest(places, { left, chest }) {
   const spread = (/** @type {number} */ lao) => {
     const [cos, sin] = [Math.cos(lao * (Math.PI / 180)), Math.sin(lao * (Math.PI / 180))];
-    const across = route.map((point) => point.reduce((sum, value, k) => sum + value * (cos * left[k] - sin * chest[k]), 0));
-    return Math.max(...across) - Math.min(...across);
+    const [x, y, z] = left.map((value, k) => cos * value - sin * chest[k]);
+    let [low, high] = [Infinity, -Infinity];
+    for (let i = 0; i < places.length; i += 3) {
+      const across = x * places[i] + y * places[i + 1] + z * places[i + 2];
+      [low, high] = [Math.min(low, across), Math.max(high, across)];
+    }
+    return high - low;
   };
   return [0, 30, -30, 60, -60, 90].reduce((best, lao) => (spread(lao) > 1.1 * spread(best) ? lao : best), 0);
 }

@@ -14,11 +14,16 @@ from pathlib import Path
 import pytest
 from aiohttp import ClientSession
 
-from guidewire.prepare import PreparationError
+from guidewire.prepare import ROOT, PreparationError
 from guidewire.viewer import parts
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 DRAWN = ["until", "globalThis.viewer?.stage.drawn > 0"]
+# The run of a server that tests share is at its start, in this page's hand; one value is seen.
+BEGUN = [DRAWN, ["until", "viewer.shown.status?.hand || (viewer.shown.send({do: 'take'}), false)"],
+         ["see", "(() => { window.before = viewer.shown.status.opened; viewer.shown.send({do: 'reset'}); })()"],
+         ["until", "viewer.shown.status.opened > before && viewer.shown.status.isWaiting"
+                   " && viewer.shown._opened === viewer.shown.status.opened"]]
 
 # Texts whose contrast to what is behind them is below 4.5 (WCAG 2.2), in both themes; behind those on a picture is
 # anything from black to white.
@@ -59,6 +64,26 @@ def from_npm(kind):
         return parts.require(kind, print)
     except PreparationError as error:
         pytest.skip(str(error))
+
+
+def near_target(tmp_path, **more):
+    """A scene whose target is a few centimetres from its inlet."""
+    scene = json.loads((ROOT / "params/sheath.json").read_text())
+    scene["vessel"].update(file=str(ROOT / "params/meshes/artery.obj"),
+                           anatomy=str(ROOT / "guidewire/env/data/artery.json"))
+    del scene["vessel"]["openRims"], scene["guidewireOffset"]
+    (tmp_path / "scene.json").write_text(json.dumps({**scene, "sheath": {}, "inlet": 1, "target": [0, 0, 90], **more}))
+    return str(tmp_path / "scene.json")
+
+
+@pytest.fixture(scope="session")
+def desk(runner_command, tmp_path_factory):
+    """Address of a server for all tests of a steered page: of a scene whose target is a few centimetres away."""
+    from guidewire.viewer.tests.test_view import serving
+
+    folder = tmp_path_factory.mktemp("desk")
+    with serving(folder, near_target(folder), with_three=True) as (address, _):
+        yield address
 
 
 @pytest.fixture(scope="session")

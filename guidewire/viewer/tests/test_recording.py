@@ -1,15 +1,18 @@
 """What the page of guidewire.py view is given of a run: channels, their precision, and the page as one file."""
 
 import json
+import shutil
 import struct
 
 import numpy as np
 import pytest
 
+from guidewire.logs.hub import read_hub
 from guidewire.logs.logs import read_log
 from guidewire.logs.runs import read_run
 from guidewire.logs.surfaces import Surface, curvature
 from guidewire.runs.runner import Request
+from guidewire.viewer import command
 from guidewire.viewer.export import to_html
 from guidewire.viewer.recording import (
     Recording, Units, ending_of, largest_shown, make_channels, read_recording, sheath_of,
@@ -148,3 +151,27 @@ def test_300_frames_and_a_vessel_of_50_000_triangles_are_a_file_of_less_than_4_M
     html = to_html(page_files({"three.module.js": three}), [block])
     assert len(html) < 4e6
     assert "src=" not in html and "./" not in html.split("<script", 1)[0]
+
+
+def test_a_run_brings_the_band_of_its_checks_and_a_study_that_of_its_runs(live, runner_command, tmp_path):
+    own = {"solver": "direct", "guidewireLength": 60, "numberRodElements": 20, "wireRadius": 2e-4, "massDamping": 20,
+           "proximalEnd": "clamped", "drive": "displace", "insertionSpeed": 0.05, "logHub": True, "deltaThreshold": 0,
+           "vessel": {"shape": "tube", "knots": [[0, 0, -80], [0, 0, -40], [0, 10, 0], [0, 40, 30]], "radius": 2}}
+    for name, dt, steps in (("one", 0.02, 20), ("one/check/half", 0.01, 40)):
+        request = Request(name, None, tmp_path / name, {**own, "timeStep": dt, "maxSimulationSteps": steps})
+        answer = live.run(request)
+        assert answer.exit_code == 0, answer.message
+    log, other = read_hub(tmp_path / "one"), read_hub(tmp_path / "one/check/half")
+    other_force = np.interp(log.time, other.time, other.force)
+    for folder in ("one", "study"):
+        if folder == "study":
+            (tmp_path / "study").mkdir()
+            (tmp_path / "study/runs.csv").write_text("")
+            shutil.copytree(tmp_path / "one", tmp_path / "study/a", ignore=shutil.ignore_patterns("check"))
+            shutil.copytree(tmp_path / "one/check/half", tmp_path / "study/b")
+        channels = unpack(command._read(tmp_path / folder, 100, True))
+        band = channels["hubForceBand"][1]
+        np.testing.assert_allclose(band[:, 0], np.minimum(log.force, other_force), atol=1e-12)
+        np.testing.assert_allclose(band[:, 1], np.maximum(log.force, other_force), atol=1e-12)
+        assert (band[:, 0] < band[:, 1]).any() and channels["hubTorqueBand"][1].shape == band.shape
+        assert (channels["hubForce"][1][:, 0] == log.force).all()

@@ -14,10 +14,12 @@ from guidewire.commands import commands
 from guidewire.logs.logs import read_log
 from guidewire.prepare import ROOT, PreparationError
 from guidewire.runs import building
-from guidewire.sessions.session import Session
-from guidewire.viewer import live
+from guidewire.runs.runner import Request
+from guidewire.sessions.session import Session, session_of
 from guidewire.viewer.cases import MISSIONS
 from guidewire.viewer.held import HeldInstruments
+from guidewire.viewer.live import ENDLESS, PUSH_SPEED
+from guidewire.viewer.site import _course
 from guidewire.viewer.tests.browsing import from_npm
 from guidewire.viewer.tests.test_desk_browser import DEBRIEF, OVERLAPS
 from guidewire.viewer.tests.test_view_browser import GAMEPAD
@@ -65,7 +67,9 @@ def test_a_site_has_all_that_its_scenes_name_and_replaces_an_earlier_one(framewo
     notices = (out / "THIRD-PARTY-NOTICES.md").read_text()
     assert all(name in notices for name in ("three.js", ".NET runtime", "Newtonsoft.Json"))
     assert (out / "LICENSE").is_file()
-    assert site(out, ROOT / "params" / "sheath.json") == 0    # an earlier site is replaced
+    (tmp_path / "small.json").write_text(json.dumps({
+        "guidewireLength": 60, "numberRodElements": 6, "constraintSolverSteps": 1, "maxSimulationSteps": 2}))
+    assert site(out, tmp_path / "small.json") == 0    # an earlier site is replaced
     assert not (out / "files/params/meshes/arch.obj.gz").exists() and not list(tmp_path.glob("*.partial"))
 
 
@@ -142,10 +146,10 @@ def test_gains_steered_by_keys_into_a_branch_have_the_bits_of_a_session(request,
         ["press", " "], ["until", f"{wire}[2] >= -310 + 240"], ["press", " "], PAUSED, ["up", "w"],
         ["see", STEP], ["see", f"[...{wire}]"], ["see", "viewer.shown._connection.steered(0)"])
     step, positions, saved = answer["seen"][2:]
-    with Session(ROOT / "params" / "insertion.json", hand=True, native=False, **live.ENDLESS) as session:
+    with Session(ROOT / "params" / "insertion.json", hand=True, native=False, **ENDLESS) as session:
         own = HeldInstruments()
         own.begin(session, session.describe())
-        push, _ = own.in_a_step(live.PUSH_SPEED * session.parameters["timeStep"], 0.0)
+        push, _ = own.in_a_step(PUSH_SPEED * session.parameters["timeStep"], 0.0)
         for _ in range(int(step)):
             state = session.step(push)
     np.testing.assert_array_equal(np.reshape(positions, (-1, 3)), state.positions)
@@ -248,12 +252,22 @@ def test_what_an_address_names_and_is_not_there_is_said_in_the_gallery_and_loadi
 
 
 @pytest.mark.parametrize("name", MISSIONS)
-def test_each_mission_is_won_by_its_own_drive_within_its_par_time(runner_command, tmp_path, name):
-    subprocess.run([*runner_command, "-parameters", str(ROOT / name), "-out", str(tmp_path / "run")], check=True,
-                   capture_output=True)
+def test_each_mission_is_won_by_its_own_drive_within_its_par_time(live, tmp_path, name):
+    live.run(Request("mission", ROOT / name, tmp_path / "run"))
     summary = json.loads((tmp_path / "run" / "summary.json").read_text())
     assert summary["outcome"] == "finished" and summary["reliable"]
     assert summary["centreline"]["reached"] and summary["centreline"]["reachedAt"] <= MISSIONS[name].par
+
+
+def test_a_ghost_goes_from_its_start_to_the_target(runner_command):
+    with session_of(ROOT / next(iter(MISSIONS)), native=False) as session:
+        course = _course(session, int(session.parameters["maxSimulationSteps"]))
+        target = session.describe()["target"]
+    way, wires = np.array(course["way"]), np.array(course["wire"]).reshape(len(course["way"]), -1, 3)
+    assert way[0] == 0.0 and (np.diff(way) > -0.5).all() and way[-1] > 190.0
+    assert np.linalg.norm(wires[-1, -1] - target["points"][-1]) < target["reach"] + 5.0
+    tips = np.linalg.norm(np.diff(wires[:, -1], axis=0), axis=1)
+    assert tips.max() < 10.0 and tips.sum() > 190.0
 
 
 @LONG

@@ -24,15 +24,12 @@ from guidewire.viewer.tests.test_view import serving
 FULL = bool(os.environ.get("GUIDEWIRE_ALL"))
 
 
-@pytest.fixture(scope="module")
-def runs(runner_command, tmp_path_factory):
-    """Folder with two runs: pushed into the vessel with many iterations and with few."""
-    folder = tmp_path_factory.mktemp("runs")
-    for name, sweeps in (("many", "100"), ("few", "10")):
-        subprocess.run([*runner_command, "-parameters", str(ROOT / "params/insertion.json"), "-out", str(folder / name),
-                        "-constraintSolverSteps", sweeps, "-logContacts", "true", "-logEvery", "2"], check=True,
-                       capture_output=True)
-    return folder
+def pushed(runner_command, folder, name, sweeps="100"):
+    """A run that is pushed into the vessel, with so many iterations."""
+    subprocess.run([*runner_command, "-parameters", str(ROOT / "params/insertion.json"), "-out", str(folder / name),
+                    "-constraintSolverSteps", sweeps, "-logContacts", "true", "-logEvery", "2"], check=True,
+                   capture_output=True)
+    return folder / name
 
 
 def test_types_of_the_page_are_right(browse):
@@ -72,12 +69,12 @@ def test_who_reads_the_page_alone_brings_the_wire_into_the_branch(browse, runner
     assert is_drawn(tmp_path / "live.png")
 
 
-def test_a_file_works_without_server_or_network(browse, runs, tmp_path):
-    file = tmp_path / "run.html"
-    done = subprocess.run([sys.executable, str(ROOT / "guidewire.py"), "view", str(runs / "many"), "--html", str(file)],
+def test_a_file_works_without_server_or_network(browse, runner_command, tmp_path):
+    file, run = tmp_path / "run.html", pushed(runner_command, tmp_path, "many")
+    done = subprocess.run([sys.executable, str(ROOT / "guidewire.py"), "view", str(run), "--html", str(file)],
                           capture_output=True, text=True, check=True)
     assert "run.html" in done.stdout and file.stat().st_size < 4e6
-    log = read_log(runs / "many", "all")
+    log = read_log(run, "all")
     answer = browse(["open", file.as_uri()], DRAWN, ["see", "viewer.shown.go(99); [...viewer.shown.models[0].tip]"],
                     SPACE, ["picture", str(tmp_path / "file.png")], offline=True)
     near = np.ptp(log.positions.reshape(-1, 3), axis=0).max() / 65535.0
@@ -110,9 +107,11 @@ def test_a_run_that_diverged_says_so_in_the_alert_live_and_replayed_alone_or_bes
 
 
 @pytest.mark.long("positions of replays stand in the tests of recordings")
-def test_two_replays_show_the_positions_of_their_logs_side_by_side_and_one_over_the_other(browse, runs, tmp_path):
-    logs = [read_log(runs / name, "all") for name in ("many", "few")]
-    with serving(tmp_path, str(runs / "many"), str(runs / "few"), with_three=True) as (address, _):
+def test_two_replays_show_the_positions_of_their_logs_side_by_side_and_one_over_the_other(
+        browse, runner_command, tmp_path):
+    runs = [pushed(runner_command, tmp_path, name, sweeps) for name, sweeps in (("many", "100"), ("few", "10"))]
+    logs = [read_log(run, "all") for run in runs]
+    with serving(tmp_path, *map(str, runs), with_three=True) as (address, _):
         seen = browse(
             ["open", address], DRAWN,
             ["see", "viewer.shown.models.map((model) => [...model.recording.channel('positions').values])"],
@@ -272,7 +271,8 @@ def test_a_key_puts_the_catheter_into_the_hand_and_each_instrument_has_its_colou
     assert is_drawn(tmp_path / "hands.png")
 
 
-@pytest.mark.parametrize("task, turned, pushed", [("artery", 2.2, 0.16), ("arch", 0.0, 0.2)])
+@pytest.mark.parametrize("task, turned, pushed", [
+    ("artery", 2.2, 0.16), pytest.param("arch", 0.0, 0.2, marks=pytest.mark.long("the artery is turned and pushed"))])
 def test_a_task_steered_by_keys_is_recorded_and_done_again_to_the_same_bits(browse, runner_command, tmp_path, task,
                                                                             turned, pushed):
     """turned, pushed : rad and m, which lead to the first target."""

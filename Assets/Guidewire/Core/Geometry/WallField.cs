@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 
 namespace Guidewire.Core
 {
@@ -152,6 +153,25 @@ namespace Guidewire.Core
                 moved -= gradient.Solve(miss);
             }
             return false;
+        }
+
+        /// <summary>Adds what <see cref="WallMotion.Displacements"/> has of now.</summary>
+        internal void AddDisplacements(List<float> numbers)
+        {
+            foreach (Frame frame in _frames)
+            {
+                Vector3d moved = frame.Now - frame.Rest;
+                Vector3d x = frame.Map.Solve(Vector3d.UnitX) - Vector3d.UnitX;
+                Vector3d y = frame.Map.Solve(Vector3d.UnitY) - Vector3d.UnitY;
+                Vector3d z = frame.Map.Solve(Vector3d.UnitZ) - Vector3d.UnitZ;
+                foreach (double number in new[]
+                {
+                    moved.X, moved.Y, moved.Z, x.X, y.X, z.X, x.Y, y.Y, z.Y, x.Z, y.Z, z.Z,
+                })
+                {
+                    numbers.Add((float)number);
+                }
+            }
         }
 
         /// <summary>det G.</summary>

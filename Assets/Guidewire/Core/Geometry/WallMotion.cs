@@ -34,6 +34,26 @@ namespace Guidewire.Core
         /// <summary>Time in which the displacement grows from 0, s.</summary>
         public double RampTime { get; }
 
+        /// <summary>What pictures draw of one cycle, without the ramp: how far the points of its centreline are
+        /// displaced at evenly spaced phases, in units, and the matrix, row by row, of what is beside a point, by which
+        /// that is displaced more: 12 numbers a point. A rigid cycle has one point, the origin.</summary>
+        public float[] Displacements(int cycle, int phases)
+        {
+            MotionCycle own = Cycles[cycle];
+            var field = new WallField(new WallMotion(new[] { own }, PointsOf(cycle), Spacing, 0.0));
+            var numbers = new List<float>();
+            for (int k = 0; k < phases; k++)
+            {
+                field.SetTime(((double)k / phases - own.Phase) * own.Period);
+                field.AddDisplacements(numbers);
+            }
+            return numbers.ToArray();
+        }
+
+        /// <summary>The points of the centreline that a cycle moves, by branch; none of a rigid one.</summary>
+        public IReadOnlyList<Vector3d[]> PointsOf(int cycle) =>
+            Cycles[cycle].IsRigid ? Array.Empty<Vector3d[]>() : Branches;
+
         /// <summary>Why no wire can be simulated in it, in one phrase, or null: somewhere near these points of the
         /// wall, at some phase, the field folds (its Jacobian is not positive).</summary>
         /// <param name="points">Units, at rest.</param>

@@ -1,4 +1,5 @@
 using System;
+using System.Globalization;
 
 namespace Guidewire.Core
 {
@@ -26,11 +27,16 @@ namespace Guidewire.Core
         /// <summary>Points towards the head.</summary>
         public Vector3d Head { get; }
 
-        /// <summary>The axes that three letters say: where x, y and z point, with R and L, A and P, S and I; null where
-        /// they are none, or left-handed.</summary>
-        public static PatientAxes? Named(string letters)
+        /// <summary>The axes that three letters name: where x, y and z point, with R and L, A and P, S and I; null
+        /// where they are none, or left-handed. A signed number behind them turns the patient's chest by so many degrees
+        /// towards the left, about the axis to the head.</summary>
+        public static PatientAxes? Named(string text)
         {
-            if (letters.Length != 3)
+            string letters = text.Length < 3 ? "" : text.Substring(0, 3);
+            double turn = 0.0;
+            if (letters.Length == 0 || (text.Length > 3 && (!(text[3] == '+' || text[3] == '-') || !double.TryParse(
+                text.Substring(3), NumberStyles.AllowLeadingSign | NumberStyles.AllowDecimalPoint,
+                CultureInfo.InvariantCulture, out turn) || !(Math.Abs(turn) <= 360.0))))
             {
                 return null;
             }
@@ -38,8 +44,13 @@ namespace Guidewire.Core
             Vector3d chest = Towards(letters, 'A', 'P');
             Vector3d head = Towards(letters, 'S', 'I');
             bool isWhole = left.LengthSquared == 1.0 && chest.LengthSquared == 1.0 && head.LengthSquared == 1.0;
-            return isWhole && Vector3d.Dot(Vector3d.Cross(chest, left), head) > 0.0
-                ? new PatientAxes(left, chest, head) : null;
+            if (!isWhole || Vector3d.Dot(Vector3d.Cross(chest, left), head) < 0.0)
+            {
+                return null;
+            }
+            double cos = turn == 0.0 ? 1.0 : Math.Cos(turn * Math.PI / 180.0);
+            double sin = turn == 0.0 ? 0.0 : Math.Sin(turn * Math.PI / 180.0);
+            return new PatientAxes(cos * left - sin * chest, cos * chest + sin * left, head);
         }
 
         /// <summary>The same after a vessel that has them was placed in the scene.</summary>

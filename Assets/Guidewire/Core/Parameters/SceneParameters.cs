@@ -28,6 +28,10 @@ namespace Guidewire.Core
         /// <summary>How the patient lies in the scene, or null where nobody says it.</summary>
         public PatientAxes? PatientAxes { get; set; }
 
+        /// <summary>Where the scene's origin lies in the generic patient that pages draw, mm to the left, the back and
+        /// the head; null where none is drawn.</summary>
+        public Vector3d? PatientOrigin { get; set; }
+
         /// <summary>The shape it starts from.</summary>
         public StartShape StartShape { get; set; } = StartShape.Straight;
 

@@ -80,10 +80,19 @@ namespace Guidewire.Io
             return isText;
         }) { FromText = text => new JValue(text) };
 
+        /// <summary>Three numbers, or null for none.</summary>
+        public static Kind<Vector3d?> OptionalVector { get; } = new Kind<Vector3d?>("null or three numbers [x, y, z]",
+            (JToken token, out Vector3d? value) =>
+        {
+            value = TryVector(token, out Vector3d vector) ? vector : (Vector3d?)null;
+            return value != null || token.Type == JTokenType.Null;
+        }, value => value is Vector3d vector ? Write(vector) : JValue.CreateNull());
+
         /// <summary>Three letters for where x, y and z point in the patient; an empty text for axes that are
         /// unknown.</summary>
         public static Kind<string> Axes { get; } = new Kind<string>("\"\" or three letters that say where x, y and z "
-            + "point, one of L and R, one of A and P, one of S and I, right-handed, such as \"LPS\"",
+            + "point, one of L and R, one of A and P, one of S and I, right-handed, such as \"LPS\", and where needed "
+            + "signed degrees by which the chest is turned to the left, such as \"LPS-60\"",
             (JToken token, out string value) =>
         {
             string letters = token.Type == JTokenType.String ? (string)token! : "?";

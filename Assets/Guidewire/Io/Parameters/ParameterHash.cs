@@ -20,6 +20,7 @@ namespace Guidewire.Io
             foreach (ParameterEntry entry in taken)
             {
                 if (!entry.IsOutputPath && entry.Key != InstrumentLayer.Key && entry.Key != "startFile"
+                    && entry.Key != "patientOrigin"
                     && entry.Key != "vessel" && entry.Key != CatheterReader.Key && entry.Key != "loadTables"
                     && !IsTableFile(entry.Key))
                 {

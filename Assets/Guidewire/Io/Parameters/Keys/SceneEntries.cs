@@ -98,6 +98,10 @@ namespace Guidewire.Io
             Key.Axes("patientAxes",
                 "where x, y and z point in the patient, such as \"LPS\" for left, posterior, superior; empty: as "
                 + "vessel.anatomy says, or unknown"),
+            Key.Of(Kinds.OptionalVector, "patientOrigin",
+                "where the scene's origin lies in the generic patient that the page draws around the vessel: mm to the "
+                + "left, the back and the head from the body's middle beside the eighth thoracic vertebra; null: no "
+                + "patient is drawn, nor without patientAxes"),
             Key.Json("obstacles", JTokenType.Array, "null or a list of {\"shape\": \"sphere\", \"centre\","
                 + " \"radius\"}, {\"shape\": \"capsule\", \"from\", \"to\", \"radius\"}, {\"shape\": \"box\","
                 + " \"centre\", \"halfSize\", \"rotation\"}, {\"shape\": \"hull\", \"points\", \"radius\"},"

@@ -10,6 +10,8 @@ namespace Guidewire.Core.Tests
         [TestCase("LPS", 10.0, -20.0, 30.0)]
         [TestCase("RAS", -10.0, 20.0, 30.0)]
         [TestCase("SLP", 30.0, 10.0, -20.0)]
+        [TestCase("ALS+90", -10.0, 20.0, 30.0)]
+        [TestCase("LPS-36.86989764584402", -4.0, -22.0, 30.0)] // cosine 4/5
         public void PointOfThePatient_IsSeenAtTheSamePlace(string letters, double x, double y, double z)
         {
             PatientAxes axes = PatientAxes.Named(letters)!;
@@ -30,6 +32,10 @@ namespace Guidewire.Core.Tests
         [TestCase("LLS")]
         [TestCase("LP")]
         [TestCase("lps")]
+        [TestCase("LPS30")]
+        [TestCase("LPS+")]
+        [TestCase("LPS+361")]
+        [TestCase("LPS+Infinity")]
         public void LeftHandedAxesAndOtherWords_AreNone(string letters) =>
             Assert.That(PatientAxes.Named(letters), Is.Null);
 
