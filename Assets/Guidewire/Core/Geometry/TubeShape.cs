@@ -199,7 +199,7 @@ namespace Guidewire.Core
             var found = new FeatureRange(features, from, features.Count, 0.0);
             hint = Deepest(a, found, out double atA);
             Deepest(b, found, out double atB);
-            return Overlaps.Has(found) ? MinDistance(a, b)
+            return Overlaps.Has(found) || Overlaps.Hide(found) ? MinDistance(a, b)
                 : Math.Min(Math.Min(atA, atB), EdgeContacts.Nearest(a, b, found));
         }
 
@@ -225,25 +225,19 @@ namespace Guidewire.Core
             return distance;
         }
 
-        /// <summary>The creases at its knots, see <see cref="TubeCreases"/>; where pieces overlap those between the pieces
-        /// that are the deepest one after another along the segment.</summary>
+        /// <summary>The creases at its knots, see <see cref="TubeCreases"/>; where pieces hold creases of others those
+        /// between the pieces that are the deepest one after another along the segment. Where it crosses from one leg
+        /// of the tube to another the contact has no weight: the wire stops there without a force.</summary>
         internal override void FindEdgeContacts(in Vector3d a, in Vector3d b, double range, FeatureRange features,
             StructList<EdgeContact> edgeContacts)
         {
-            if (Overlaps.Has(features))
+            int from = edgeContacts.Count;
+            if (Overlaps.Hide(features))
             {
-                int first = _tree.Deepest(a, features.IsKnown ? features[features.From] : 0, out double atA);
-                int last = _tree.Deepest(b, first, out double atB);
-                var start = new TubePoint(0.0, first <= last ? atA : atB, Math.Min(first, last));
-                var end = new TubePoint(1.0, first <= last ? atB : atA, Math.Max(first, last));
-                int from = edgeContacts.Count;
-                AddMeetings(first <= last ? a : b, first <= last ? b : a, start, end, range, 0, edgeContacts);
-                for (int k = from; k < edgeContacts.Count && first > last; k++)
-                {
-                    edgeContacts[k] = edgeContacts[k].Reversed();
-                }
+                FindMeetings(a, b, range, features, edgeContacts);
+                return;
             }
-            else if (features.IsKnown)
+            if (features.IsKnown)
             {
                 EdgeContacts.Find(a, b, range, features, edgeContacts);
             }
@@ -251,11 +245,57 @@ namespace Guidewire.Core
             {
                 EdgeContacts.Find(a, b, range, edgeContacts);
             }
+            if (Overlaps.Has(features))
+            {
+                FindBetweenLegs(a, b, range, from, edgeContacts);
+            }
+        }
+
+        private void FindBetweenLegs(in Vector3d a, in Vector3d b, double range, int from,
+            StructList<EdgeContact> edgeContacts)
+        {
+            // A crease in the lumen of another leg is none.
+            int left = from;
+            for (int k = from; k < edgeContacts.Count; k++)
+            {
+                EdgeContact crease = edgeContacts[k];
+                _tree.Deepest(Vector3d.Lerp(a, b, crease.Position), 0, out double depth);
+                if (depth <= crease.Distance + _tree.Resolution)
+                {
+                    edgeContacts[left++] = crease;
+                    range = Math.Min(range, crease.Distance - _tree.Resolution);
+                }
+            }
+            edgeContacts.Truncate(left);
+            int piece = FindLeast(a, b, 0, range, out double s, out double distance);
+            if (s > 0.0 && s < 1.0 && distance < range)
+            {
+                Vector3d x = Vector3d.Lerp(a, b, s);
+                _tree.Pieces[piece].Distance(x, out Vector3d centre, out _);
+                edgeContacts.Add(new EdgeContact(s, distance, Vector3d.Normalize(centre - x), 0.0, Vector3d.Zero,
+                    Vector3d.Zero, 1.0, 0.0));
+            }
+        }
+
+        private void FindMeetings(in Vector3d a, in Vector3d b, double range, FeatureRange features,
+            StructList<EdgeContact> edgeContacts)
+        {
+            int first = Deepest(a, 0, features, out double atA);
+            int last = Deepest(b, first, features, out double atB);
+            bool isAlong = first <= last;
+            var start = new TubePoint(0.0, isAlong ? atA : atB, Math.Min(first, last));
+            var end = new TubePoint(1.0, isAlong ? atB : atA, Math.Max(first, last));
+            int from = edgeContacts.Count;
+            AddMeetings(isAlong ? a : b, isAlong ? b : a, start, end, range, features, 0, edgeContacts);
+            for (int k = from; k < edgeContacts.Count && !isAlong; k++)
+            {
+                edgeContacts[k] = edgeContacts[k].Reversed();
+            }
         }
 
         // In the direction of the tube. With slope at most 1, d is nowhere below (d0 + d1 - length)/2.
         private void AddMeetings(in Vector3d a, in Vector3d b, in TubePoint from, in TubePoint to, double range,
-            int cuts, StructList<EdgeContact> edgeContacts)
+            FeatureRange features, int cuts, StructList<EdgeContact> edgeContacts)
         {
             double length = (to.S - from.S) * Vector3d.Distance(a, b);
             if (from.Piece == to.Piece || 0.5 * (from.Distance + to.Distance - length) > range || cuts == MaxCuts)
@@ -264,13 +304,13 @@ namespace Guidewire.Core
             }
             double middle = _tree.Crossing(a, b, from, to);
             Vector3d x = Vector3d.Lerp(a, b, middle);
-            int deepest = _tree.Deepest(x, from.Piece, out double depth);
+            int deepest = Deepest(x, from.Piece, features, out double depth);
             double crossing = Math.Max(_tree.Pieces[from.Piece].Distance(x), _tree.Pieces[to.Piece].Distance(x));
             if (depth > crossing + _tree.Resolution)
             {
                 var cut = new TubePoint(middle, depth, deepest);
-                AddMeetings(a, b, from, cut, range, cuts + 1, edgeContacts);
-                AddMeetings(a, b, cut, to, range, cuts + 1, edgeContacts);
+                AddMeetings(a, b, from, cut, range, features, cuts + 1, edgeContacts);
+                AddMeetings(a, b, cut, to, range, features, cuts + 1, edgeContacts);
             }
             else if (EdgeContacts.FindBetween(from.Piece, to.Piece, a, b, (from.S, middle, to.S), range,
                 out EdgeContact contact))
@@ -278,6 +318,9 @@ namespace Guidewire.Core
                 edgeContacts.Add(contact);
             }
         }
+
+        private int Deepest(in Vector3d x, int guess, FeatureRange features, out double distance) =>
+            features.IsKnown ? Deepest(x, features, out distance) : _tree.Deepest(x, guess, out distance);
 
         private int Deepest(in Vector3d x, FeatureRange features, out double distance)
         {

@@ -214,10 +214,13 @@ namespace Guidewire.Core
         private const int Directions = 6;          // around a knot, in which its crease is looked at
         private const int Iterations = 10;
         private const double Near = 1e-9;          // of the radius: a crease that is found
-        private const double Hidden = 1e-6;        // of the radius, by which another piece is deeper there
+        private const double Hidden = 1e-4;        // of the radius, by which another piece is deeper there
+        private const double LeastSine = 1e-6;     // of the angle of a crease
         private static readonly double[] Depths = { 0.0, 0.25 };    // of the radius, at which it is looked at
         private readonly bool[] _isIn;             // by piece
+        private readonly bool[] _hides;            // by piece
         private bool _hasAny;
+        private bool _hidesAny;
 
         /// <summary>Finds the overlaps of the tube through these knots with these radii, units.</summary>
         /// <param name="tree">Of its pieces.</param>
@@ -225,6 +228,7 @@ namespace Guidewire.Core
         {
             int count = knots.Length - 1;
             _isIn = new bool[count];
+            _hides = new bool[count];
             var lengths = new double[count];
             for (int i = 0; i < count; i++)
             {
@@ -250,7 +254,9 @@ namespace Guidewire.Core
                     // Around a circle of at least the tube's radius it takes more than half a circle to come so near.
                     if (squared < range * range && (cosine < Math.Cos(LargestTurn) || along > 0.5 * Math.PI * range))
                     {
-                        Add(i, j, j);
+                        _isIn[i] = true;
+                        _isIn[j] = true;
+                        _hasAny = true;
                     }
                 }
             }
@@ -260,14 +266,6 @@ namespace Guidewire.Core
                     + (1.0 / lengths[k]) * (knots[k + 1] - knots[k]));
                 FindHidden(tree, k, knots[k], radii[k], along);
             }
-        }
-
-        private void Add(int one, int two, int three)
-        {
-            _isIn[one] = true;
-            _isIn[two] = true;
-            _isIn[three] = true;
-            _hasAny = true;
         }
 
         // Whether another piece is deeper where the two at a knot meet, by Newton's method in planes along the tube.
@@ -289,7 +287,7 @@ namespace Guidewire.Core
                     Vector3d two = Vector3d.Normalize(centre - x);
                     double determinant = Vector3d.Dot(one, across) * Vector3d.Dot(two, along)
                         - Vector3d.Dot(one, along) * Vector3d.Dot(two, across);
-                    if (!(Math.Abs(determinant) > Hidden))
+                    if (!(Math.Abs(determinant) > LeastSine))
                     {
                         break;
                     }
@@ -298,7 +296,10 @@ namespace Guidewire.Core
                         int deepest = tree.Deepest(x, k, out double there);
                         if (there > depth + Hidden * radius)
                         {
-                            Add(k - 1, k, deepest);
+                            _hides[k - 1] = true;
+                            _hides[k] = true;
+                            _hides[deepest] = true;
+                            _hidesAny = true;
                         }
                         break;
                     }
@@ -308,17 +309,22 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Whether one of these pieces is such a one; of all pieces, where they are not known.</summary>
-        public bool Has(FeatureRange pieces)
+        /// <summary>Whether one of these pieces is that of a leg; of all pieces, where they are not known.</summary>
+        public bool Has(FeatureRange pieces) => _hasAny && IsAny(_isIn, pieces);
+
+        /// <summary>Whether one of them holds a crease of others, or has one that another piece holds.</summary>
+        public bool Hide(FeatureRange pieces) => _hidesAny && IsAny(_hides, pieces);
+
+        private static bool IsAny(bool[] flags, FeatureRange pieces)
         {
-            for (int i = pieces.From; i < pieces.To && _hasAny; i++)
+            for (int i = pieces.From; i < pieces.To; i++)
             {
-                if (_isIn[pieces[i]])
+                if (flags[pieces[i]])
                 {
                     return true;
                 }
             }
-            return _hasAny && !pieces.IsKnown;
+            return !pieces.IsKnown;
         }
     }
 }
