@@ -1,11 +1,10 @@
 // @ts-check
 import { View } from "./look.js";
 import { NUMBERS, Pieces } from "./pieces.js";
-import { BLUR, COMPOSE, COVER, SHOW, STRIP, STRIP_CORNERS } from "./shaders.js";
+import { COMPOSE, COVER, STRIP, STRIP_CORNERS } from "./shaders.js";
 
 /** @typedef {import("./pieces.js").Instrument} Instrument */
 
-const MOST_WEIGHTS = 24;
 const LIGHT_BELOW = 0.46; // brightness from which black and white are as easily told: luminance 0.18, (1.05/0.23 = 0.23/0.05)
 
 /** X-ray pictures by the formula of the core, drawn by a shader. */
@@ -21,8 +20,6 @@ export class Fluoroscopy extends View {
     this._pieces = new Pieces();
     this._strip = program(gl, STRIP_CORNERS, STRIP);
     this._compose = program(gl, COVER, COMPOSE);
-    this._blurred = program(gl, COVER, BLUR);
-    this._show = program(gl, COVER, SHOW);
     this._numbers = gl.createBuffer();
     this._strips = gl.createVertexArray();
     gl.bindVertexArray(this._strips);
@@ -57,7 +54,7 @@ export class Fluoroscopy extends View {
   /** Takes the picture that later ones are subtracted from. @param {[Instrument, ArrayLike<number>][]} instruments */
   takeMask(instruments) {
     const { look } = this;
-    this.look = { ...look, isSubtracted: false, blur: 0 };
+    this.look = { ...look, isSubtracted: false };
     this._draw(instruments, this._images.mask.frame);
     this.look = look;
     this._maskSeen = this._seen;
@@ -87,41 +84,18 @@ export class Fluoroscopy extends View {
     gl.clear(gl.COLOR_BUFFER_BIT);
     this._drawStrips();
     gl.bindVertexArray(this._nothing);
-    const blur = look.blur > 0 ? (look.blur / this.millimetres) * arm.scale : 0;
     gl.useProgram(this._compose);
     this._bind(this._compose, "layer", 0, this._images.layer);
     this._bind(this._compose, "depth", 1, this._images.depth.texture);
-    gl.uniform1i(gl.getUniformLocation(this._compose, "isLast"), blur > 0 || mask ? 0 : 1);
-    this._bind(this._compose, "mask", 2, (mask ? this._images.first : this._images.mask).texture);
+    gl.uniform1i(gl.getUniformLocation(this._compose, "isLast"), mask ? 0 : 1);
+    this._bind(this._compose, "mask", 2, mask ? this._images.layer : this._images.mask.texture);
     const isSubtracted = look.isSubtracted && this.hasMask && !mask;
     gl.uniform1f(gl.getUniformLocation(this._compose, "subtracted"), isSubtracted ? look.background : 0);
     gl.uniform1f(gl.getUniformLocation(this._compose, "clear"), isClear && !isSubtracted ? LIGHT_BELOW : 0);
     gl.uniform2i(gl.getUniformLocation(this._compose, "shift"), look.shift[0], -look.shift[1]);
-    this._setNoise(this._compose);
-    this._cover(mask ?? (blur > 0 ? this._images.first.frame : null));
-    if (blur > 0) {
-      const weights = gaussian(blur, Math.max(this.columns, this.rows));
-      gl.useProgram(this._blurred);
-      gl.uniform1fv(gl.getUniformLocation(this._blurred, "weights"), weights);
-      gl.uniform1i(gl.getUniformLocation(this._blurred, "extent"), weights.length - 1);
-      for (const [from, to, x, y] of /** @type {const} */ ([[this._images.first, this._images.second, 1, 0],
-        [this._images.second, this._images.first, 0, 1]])) {
-        this._bind(this._blurred, "picture", 0, from.texture);
-        gl.uniform2i(gl.getUniformLocation(this._blurred, "along"), x, y);
-        this._cover(to.frame);
-      }
-      gl.useProgram(this._show);
-      this._bind(this._show, "picture", 0, this._images.first.texture);
-      this._setNoise(this._show);
-      this._cover(null);
-    }
-  }
-
-  /** @param {WebGLProgram} of */
-  _setNoise(of) {
-    const { look, _gl: gl } = this;
-    gl.uniform1f(gl.getUniformLocation(of, "noise"), look.noise * Math.sqrt(look.background));
-    gl.uniform1ui(gl.getUniformLocation(of, "seed"), look.seed >>> 0);
+    gl.uniform1f(gl.getUniformLocation(this._compose, "noise"), look.noise * Math.sqrt(look.background));
+    gl.uniform1ui(gl.getUniformLocation(this._compose, "seed"), look.seed >>> 0);
+    this._cover(mask);
   }
 
   /**
@@ -176,14 +150,6 @@ export class Fluoroscopy extends View {
   }
 }
 
-/** @param {number} deviation pixels @param {number} pixels */
-function gaussian(deviation, pixels) {
-  const extent = Math.min(Math.ceil(3 * deviation), pixels, MOST_WEIGHTS - 1);
-  const all = Array.from({ length: extent + 1 }, (_, k) => Math.exp((-0.5 * k * k) / (deviation * deviation)));
-  const sum = all.reduce((total, weight) => total + 2 * weight, -1);
-  return Float32Array.from(all, (weight) => weight / sum);
-}
-
 /** @param {WebGL2RenderingContext} gl @param {string} corners @param {string} fragments */
 function program(gl, corners, fragments) {
   const made = gl.createProgram();
@@ -224,5 +190,5 @@ function target(gl, columns, rows, format) {
 function imagesOf(gl, columns, rows) {
   const made = (/** @type {number} */ format) => target(gl, columns, rows, format);
   return { layer: texture(gl, columns, rows, gl.R32F), depth: made(gl.getExtension("EXT_float_blend") ? gl.R32F : gl.R16F),
-    first: made(gl.R32F), second: made(gl.R32F), mask: made(gl.R32F) };
+    mask: made(gl.R32F) };
 }

@@ -18,7 +18,6 @@ import { say } from "./words.js";
  * @property {number} background
  * @property {number} noise deviation over brightness
  * @property {number} seed
- * @property {number} blur mm
  * @property {boolean} isSubtracted whether the mask is taken away
  * @property {[number, number]} shift of the mask, pixels
  */
@@ -29,7 +28,7 @@ const AGENT = 0.23; // 1/mm: iodine of 300 mg/ml at 60 keV
 export const plainLook = () => ({
   lao: 0, cranial: 0, centre: null, field: null, vessel: "roadmap", contrast: 0.1, agent: AGENT,
   background: 0.75, noise: 0, seed: 0,
-  blur: 0, isSubtracted: false, shift: [0, 0],
+  isSubtracted: false, shift: [0, 0],
 });
 /** Brightness over the background's behind the most of a patient and the least, and how soon it changes with the optical depth. */
 const [DARKEST, LIGHTEST, STEEP] = [0.74, 1.1, 4];

@@ -133,6 +133,9 @@ function makeParts() {
   return parts;
 }
 
+/** What was made last: a run that begins anew has the same. */
+let made = { of: "", parts: /** @type {Part[]} */ ([]) };
+
 /**
  * What of the patient lies around a vessel, in the scene; the skin is the last.
  * @param {import("./carm.js").Patient} patient @param {[Place, Place]} box of the vessel, units @param {number} millimetres of a unit
@@ -140,6 +143,8 @@ function makeParts() {
  */
 export function patientAround({ left, chest, head, origin }, [low, high], millimetres) {
   if (!origin) return [];
+  const of = JSON.stringify([left, chest, head, origin, low, high, millimetres]);
+  if (of === made.of) return made.parts;
   const axes = [left, chest.map((value) => -value), head];
   const reach = axes.map((axis, k) => [1, -1].map((side) => axis.reduce((sum, value, i) => sum + 0.5 * millimetres
     * (value * (low[i] + high[i]) - side * Math.abs(value) * (high[i] - low[i])), origin[k] - side * NEAR)));
@@ -151,6 +156,7 @@ export function patientAround({ left, chest, head, origin }, [low, high], millim
     const [wide, deep, back] = [0, 1, 2].map((k) => [-STEP, 0, STEP].reduce((sum, shift) => sum + at(OUTLINE, height + shift)[k] / 3, 0));
     return [wide * Math.cos(angle), back + deep * Math.sin(angle), height];
   });
-  return [...near, /** @type {Part} */ ({ kind: "skin", attenuation: 0.005, ...skin })].map((part) => ({ ...part,
-    vertices: part.vertices.map((_, i, all) => axes.reduce((sum, axis, j) => sum + axis[i % 3] * (all[i - (i % 3) + j] - origin[j]), 0) / millimetres) }));
+  made = { of, parts: [...near, /** @type {Part} */ ({ kind: "skin", attenuation: 0.005, ...skin })].map((part) => ({ ...part,
+    vertices: part.vertices.map((_, i, all) => axes.reduce((sum, axis, j) => sum + axis[i % 3] * (all[i - (i % 3) + j] - origin[j]), 0) / millimetres) })) };
+  return made.parts;
 }

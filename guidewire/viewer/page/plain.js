@@ -5,7 +5,7 @@ import { Pieces, NUMBERS } from "./pieces.js";
 /** @typedef {import("./pieces.js").Instrument} Instrument */
 
 /** X-ray pictures without WebGL: vessel and background by the formula of the core, instruments as strokes of even
- * opacity, without noise and blur. */
+ * opacity, without noise. */
 export class PlainFluoroscopy extends View {
   /** @param {HTMLCanvasElement} canvas @param {number} pixels of a side */
   constructor(canvas, pixels) {

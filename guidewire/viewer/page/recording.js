@@ -90,8 +90,7 @@ export class Recording {
     /** The target, which goes with its vessel. */
     this._target = new Carried(Float32Array.from(described?.target?.points.at(-1) ?? []), described?.motions?.[0] ?? []);
     this._isMoved = false;
-    /** @type {import("./patient.js").Part[] | undefined} */
-    this._body = undefined;
+    this._box = this.box;
     /** Counts how often vertices were moved. */
     this.moves = 0;
     this.sheath = sheath;
@@ -152,7 +151,7 @@ export class Recording {
   /** What of a generic patient lies around the vessel. */
   get body() {
     const { patient } = this.described ?? {};
-    return this._body ??= patient ? patientAround(patient, this.box, this.millimetres) : [];
+    return patient ? patientAround(patient, this._box, this.millimetres) : [];
   }
 
   /** Number of frames. */

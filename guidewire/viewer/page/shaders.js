@@ -121,7 +121,7 @@ vec4 grey(float brightness, ivec2 at, ivec2 size) {
   return vec4(vec3(floor(255.0 * clamp(brightness, 0.0, 1.0) + 0.5) / 255.0), 1.0);
 }`;
 
-/** Brightness of background and vessel behind the instruments; or at once the grey levels, where nothing is blurred. */
+/** Grey levels of background, vessel and instruments; or their brightness, of a mask. */
 export const COMPOSE = `#version 300 es
 precision highp float;
 precision highp int;
@@ -144,35 +144,4 @@ void main() {
     brightness *= subtracted / max(texelFetch(mask, clamp(at - shift, ivec2(0), size - 1), 0).r, 1e-4);
   }
   colour = isLast ? grey(brightness, at, size) : vec4(brightness, 0.0, 0.0, 1.0);
-}`;
-
-/** Blur along rows or columns. */
-export const BLUR = `#version 300 es
-precision highp float;
-uniform highp sampler2D picture;
-uniform float weights[24];
-uniform int extent;
-uniform ivec2 along;
-out vec4 brightness;
-void main() {
-  ivec2 at = ivec2(gl_FragCoord.xy);
-  ivec2 last = textureSize(picture, 0) - 1;
-  float sum = weights[0] * texelFetch(picture, at, 0).r;
-  for (int k = 1; k <= extent; k++) {
-    sum += weights[k] * (texelFetch(picture, clamp(at + k * along, ivec2(0), last), 0).r
-      + texelFetch(picture, clamp(at - k * along, ivec2(0), last), 0).r);
-  }
-  brightness = vec4(sum, 0.0, 0.0, 1.0);
-}`;
-
-/** Grey levels of what was blurred. */
-export const SHOW = `#version 300 es
-precision highp float;
-precision highp int;
-uniform highp sampler2D picture;
-out vec4 colour;
-${GREY}
-void main() {
-  ivec2 at = ivec2(gl_FragCoord.xy);
-  colour = grey(texelFetch(picture, at, 0).r, at, textureSize(picture, 0));
 }`;

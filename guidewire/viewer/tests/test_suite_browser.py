@@ -47,7 +47,7 @@ def test_contrast_in_the_shader_is_that_of_the_core(browse, runner_command, tmp_
                  for look in LOOKS]
     take = (f"(look) => {{ const x = {VIEW}; x.resize(512, 512); x.parts = Float64Array.from({parts.tolist()});"
             " x.showsPatient = false; Object.assign(x.look, {centre: null, field: null, vessel: 'injected',"
-            " agent: 0.23, background: 0.75, noise: 0, blur: 0}, look);"
+            " agent: 0.23, background: 0.75, noise: 0}, look);"
             f" viewer.shown.model.recording.at('positions', 0).set({wire.ravel().tolist()}); return {GREY}; }}")
     with serving(tmp_path, scene, with_three=True) as (address, _):
         seen = browse(["open", address], DRAWN,

@@ -169,13 +169,13 @@ def test_the_shader_draws_the_pictures_of_the_core(browse, runner_command, tmp_p
     log = read_log(tmp_path / "run", "all")
     assert np.ptp(log.positions[-1][:, 1]) > 20, "the wire is bent"
     take = ("(look) => { const x = viewer.xray.fluoroscopy; x.resize(512, 512); Object.assign(x.look, {lao: 0, "
-            "cranial: 0, centre: null, field: null, vessel: 'none', contrast: 0.1, background: 0.75, noise: 0, blur: "
-            "0, seed: 3}, look); const [model] = viewer.shown.models; const grey = "
+            "cranial: 0, centre: null, field: null, vessel: 'none', contrast: 0.1, background: 0.75, noise: 0, "
+            "seed: 3}, look); const [model] = viewer.shown.models; const grey = "
             "x.grey(model.recording.instruments.map((one, k) => [one, model.centreline(k)])); let text = ''; for (let "
             "k = 0; k < grey.length; k += 4096) text += String.fromCharCode(...grey.subarray(k, k + 4096)); return "
             "btoa(text); }")
     with serving(tmp_path, str(tmp_path / "run"), with_three=True) as (address, _):
-        noisy = {**LOOKS[0], "noise": 0.05, "blur": 0.4}
+        noisy = {**LOOKS[0], "noise": 0.05}
         answer = browse(["open", address], DRAWN, ["see", "viewer.shown.go(99)"],
                         *(["see", f"({take})({json.dumps(look)})"] for look in (*LOOKS, noisy)))
     pictures = [np.frombuffer(b64decode(grey), np.uint8).reshape(512, 512).astype(int) for grey in answer["seen"][1:]]
@@ -280,7 +280,8 @@ def test_a_task_steered_by_keys_is_recorded_and_done_again_to_the_same_bits(brow
     turn = [["down", "ArrowRight"], ["until", f"{hub_turn} > {turned}"], ["up", "ArrowRight"]]
     with serving(tmp_path, task, "--record", str(tmp_path / "drive.json"), with_three=True, what="tasks"
                  ) as (address, process):
-        browse(["open", address], DRAWN, *(turn if turned else []), ["down", "ArrowUp"], ["until", f"{HUB} > {pushed}"],
+        browse(["open", address], DRAWN, *(turn if turned else []),
+               ["see", "viewer.shown.send({do: 'pace', value: 2})"], ["down", "ArrowUp"], ["until", f"{HUB} > {pushed}"],
                ["up", "ArrowUp"], ["see", "viewer.shown.pause(true)"], ["until", "viewer.shown.status.isPaused"])
         process.send_signal(signal.SIGINT)
         assert (said := process.stdout.read()).startswith("recorded: "), said

@@ -28,8 +28,8 @@ namespace Guidewire.Core
         public Vector3d Head { get; }
 
         /// <summary>The axes that three letters name: where x, y and z point, with R and L, A and P, S and I; null
-        /// where they are none, or left-handed. A signed number behind them turns the patient's chest by so many degrees
-        /// towards the left, about the axis to the head.</summary>
+        /// where they are none, or left-handed. A signed number behind them turns the patient's chest by so many
+        /// degrees towards the left, about the axis to the head.</summary>
         public static PatientAxes? Named(string text)
         {
             string letters = text.Length < 3 ? "" : text.Substring(0, 3);
