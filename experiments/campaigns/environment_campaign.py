@@ -25,8 +25,9 @@ from experiments.campaigns.environment_claims import Judge, add_bits
 from experiments.campaigns.runs import parser_of
 from guidewire.env import Environment, VectorEnvironment, all_tasks
 from guidewire.env.baselines import Chance
+from guidewire.env.drive import Drive
 from guidewire.env.recorded import digest_of
-from guidewire.env.task import Task
+from guidewire.env.task import Task, find_task
 from guidewire.installed import version
 from guidewire.runs import building
 
@@ -50,6 +51,11 @@ def judged(environment: Environment, seed: int) -> dict[str, Any]:
     report = info["report"]
     digest = judge.verdict(terminated, truncated, report)
     return {"end": report["end"], "reason": report["reason"], "steps": steps, "digest": digest, "faults": judge.faults}
+
+
+def options_of(task: str) -> dict[str, Any]:
+    """Options with which each step of an environment is one time step, as the criteria have it."""
+    return {"drive": {"step_time": find_task(task).overrides.get("timeStep", Drive().step_time)}}
 
 
 def together(task: str | Task, seeds: Sequence[int], backend: str, **options: Any) -> list[str]:
@@ -168,14 +174,14 @@ class Counted:
 
 def play(record: Record, task: str, seeds: Sequence[int]) -> None:
     """Play what is not in the record: all of these alone, and the first with other hosts."""
-    with Environment(task) as environment:
+    with Environment(task, **options_of(task)) as environment:
         for seed in record.lacks(task, seeds, ALONE):
             record.note(task, seed, ALONE, **judged(environment, seed))
     for host in HOSTS:
         seeds_of_host = record.lacks(task, seeds[:COMPARED], host)
         if not seeds_of_host:
             continue
-        options = {"native": False} if host == "runner" else {}
+        options = {**options_of(task), **({"native": False} if host == "runner" else {})}
         digests = together(task, seeds_of_host, "processes" if host == "processes" else "threads", **options)
         for seed, digest in zip(seeds_of_host, digests):
             record.note(task, seed, host, digest=digest)

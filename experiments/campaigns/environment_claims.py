@@ -21,6 +21,7 @@ from scipy.spatial.transform import Rotation
 
 from analysis.passages import Wall
 from analysis.wall_search import MeshSearch
+from guidewire.anatomy.motion import motion_of
 from guidewire.env import Environment
 from guidewire.env.recorded import digest_of
 from guidewire.logs.paths import lengths_of, through_tips
@@ -72,6 +73,15 @@ class Way:
         self.left = stretch * dijkstra(tree, directed=False, indices=self.target)
         self.points, self.radii = self.placed(numbers[:, :3]), self.scale * numbers[:, 3]
         self.spacing = stretch * float(lengths.max())
+        self.motion = motion_of(given)
+
+    def at_rest(self, state: State) -> list[np.ndarray]:
+        """Say where the nodes of the wire and of each catheter are on the vessel at rest."""
+        nodes = [one.positions for one in _each(state)]
+        if self.motion is None:
+            return nodes
+        self.motion.set_time(state.time)
+        return [self.motion.at_rest(one)[0] for one in nodes]
 
     def placed(self, points: np.ndarray) -> np.ndarray:
         """Say where points (n, 3) of the anatomy are in the scene."""
@@ -102,11 +112,10 @@ class Lumen:
         """Say whether one of these points (n, 3) is out of the vessel, and not in the sheath."""
         return bool((((points - self.exit) @ self.along > 0.0) & ~self.closed.inside(points)).any())
 
-    def faults(self, state: State, lengths: np.ndarray) -> list[str]:
-        """Say what of a state is through the wall, or outside and not through a rim; lengths (n,) of the wire's
+    def faults(self, wire: np.ndarray, catheters: list[np.ndarray], lengths: np.ndarray) -> list[str]:
+        """Say what of these nodes is through the wall, or outside and not through a rim; lengths (n,) of the wire's
         elements."""
-        catheters = [one.positions for one in state.catheters]
-        path, _ = through_tips(state.positions, catheters, lengths)
+        path, _ = through_tips(wire, catheters, lengths)
         for nodes in catheters[-1:]:    # what is inside lies on its centreline: the wire goes on from its tip
             tips = np.flatnonzero((path == nodes[-1]).all(axis=1))
             path = np.concatenate([nodes, path[tips[0] + 1:] if len(tips) else path[len(path):]])
@@ -149,7 +158,8 @@ class Judge:
         self._states.append(state)
         self._add(observation, reward)
         given = self._environment.session.parameters
-        limits = [one.get("hubForceLimit", 0.0) for one in (given, *(given.get("catheters") or ()))]
+        limits = [one.get("hubForceLimit") for one in (given, *(given.get("catheters") or ()))]
+        limits = [one if isinstance(one, (int, float)) else 0.0 for one in limits]    # "hand", or none
         if any(0.0 < _BROKEN * limit < abs(hub.force) for limit, hub in zip(limits, _hubs(state))):
             self._is_broken = True
             if not ended:
@@ -200,11 +210,11 @@ class Judge:
             np.stack([one.positions for one in self._states]))
         looked_at = {*range(0, len(self._states), _EVERY), len(self._states) - 2, len(self._states) - 1}
         for k in sorted(looked_at):
-            for fault in lumen.faults(self._states[k], lengths):
+            wire, *catheters = self._way.at_rest(self._states[k])
+            for fault in lumen.faults(wire, catheters, lengths):
                 self.faults.append(f"state {k}: {fault}")
-        tips = np.array([one.positions[-1] for state in self._states[:-1] for one in _each(state)])
-        is_out = [lumen.is_out(np.concatenate([one.positions for one in _each(self._states[k])]))
-                  for k in sorted(looked_at)]
+        tips = np.array([nodes[-1] for state in self._states[:-1] for nodes in self._way.at_rest(state)])
+        is_out = [lumen.is_out(np.concatenate(self._way.at_rest(self._states[k]))) for k in sorted(looked_at)]
         if any(is_out[:-1]) or lumen.is_out(tips):
             self.faults.append("something is outside, and the episode goes on")
         if end == "left the vessel" and not is_out[-1]:
@@ -213,7 +223,7 @@ class Judge:
         return self._sum.hexdigest()[:16]
 
     def _is_there(self, is_sure: bool = False) -> bool:
-        task, tips = self._environment.task, [one.positions[-1] for one in _each(self._states[-1])]
+        task, tips = self._environment.task, [nodes[-1] for nodes in self._way.at_rest(self._states[-1])]
         follow = task.follow if isinstance(task.follow, (list, tuple)) else [task.follow] * (len(tips) - 1)
         return all(within is None or self._way.is_within(tip, within, is_sure)
                    for tip, within in zip(tips, (task.tolerance, *follow)))

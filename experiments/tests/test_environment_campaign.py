@@ -2,7 +2,6 @@
 
 import json
 from dataclasses import replace
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -41,12 +40,12 @@ def test_claims_are_judged_from_the_states_and_hosts_by_their_bits(task):
         assert way.is_within(own.target_position, task.tolerance, is_sure=True)
         lumen, state = Lumen(own, way), own.session_state
         lengths = np.linalg.norm(np.diff(state.positions, axis=0), axis=1)
-        assert lumen.faults(state, lengths) == []
+        assert lumen.faults(state.positions, [one.positions for one in state.catheters], lengths) == []
         aside = np.zeros_like(state.positions)
         aside[-1] = 40.0, 0.0, 0.0
         for moved, wrong in ((aside, "an element crosses the wall"),
                              (aside[-1], "nodes are outside and went through no rim")):
-            assert lumen.faults(SimpleNamespace(positions=state.positions + moved, catheters=[]), lengths) == [wrong]
+            assert lumen.faults(state.positions + moved, [], lengths) == [wrong]
 
 
 def test_a_record_goes_on_where_it_was_ended_and_counts_other_bits_as_faults(tmp_path, monkeypatch):

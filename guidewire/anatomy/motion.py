@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import csv
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -21,7 +21,7 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 from scipy.spatial.transform import Rotation
 
-_SIZES = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "deg": np.pi / 180.0, "rad": 1.0}
+SIZES = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "deg": np.pi / 180.0, "rad": 1.0}
 _STEPS = 30  # of Newton's method
 _SPACING = 2e-3  # m
 _CHUNK = 4000  # points at once
@@ -70,9 +70,22 @@ class VesselMotion:
         self._branches: list[np.ndarray] = []
         own = [motion] + ([motion["breathing"]] if "breathing" in motion else [])
         self._cycles = [self._cycle(one) for one in own]
-        self.ramp = float(motion.get("rampTime", 0.25 * self._cycles[0].period))
         self._rest = np.concatenate(self._branches) if self._branches else np.zeros((1, 3))
+        self.set_pace(motion)
+
+    def set_pace(self, motion: Mapping[str, Any]) -> None:
+        """Take over periods and phases of a motion that is the same but for them, and go to time 0."""
+        paces = map(_pace_of, [motion] + ([motion["breathing"]] if "breathing" in motion else []))
+        self._cycles = [replace(cycle, period=period, phase=phase)
+                        for cycle, (period, phase) in zip(self._cycles, paces)]
+        self.ramp = float(motion.get("rampTime", 0.25 * self.period))
         self.set_time(0.0)
+
+    @property
+    def beat(self) -> tuple[float, float]:
+        """Cosine and sine of the phase of the first cycle."""
+        angle = 2.0 * np.pi * (self._cycles[0].phase + self._time / self.period)
+        return float(np.cos(angle)), float(np.sin(angle))
 
     @property
     def period(self) -> float:
@@ -81,6 +94,7 @@ class VesselMotion:
 
     def set_time(self, time: float) -> None:
         """Go to a time, s."""
+        self._time = time
         u = min(1.0, max(0.0, time / self.ramp)) if self.ramp > 0.0 else 1.0
         ramp = u**3 * (10.0 - u * (15.0 - 6.0 * u))
         values = [ramp * cycle.values((cycle.phase + time / cycle.period) % 1.0) for cycle in self._cycles]
@@ -140,8 +154,7 @@ class VesselMotion:
         return rest, slope + np.einsum("nki,nkj->nij", images - rest[:, None], rate)
 
     def _cycle(self, own: dict[str, Any]) -> _Cycle:
-        period = float(own["period"]) if "period" in own else 60.0 / float(own["heartRate"])
-        phase = float(own.get("phase", 0.0))
+        period, phase = _pace_of(own)
         if "centreline" in own:
             return _Cycle(period, phase, None, self._centreline(Path(own["centreline"])))
         rigid = own["rigid"]
@@ -176,6 +189,12 @@ class VesselMotion:
                                      grid("scale") - 1.0], axis=2)
             moved.append(CubicSpline(stations, values, axis=1, bc_type="natural")(at))
         return _periodic(phases, np.concatenate(moved, axis=1))
+
+
+def _pace_of(cycle: Mapping[str, Any]) -> tuple[float, float]:
+    """Return the period, s, and the phase at time 0."""
+    period = float(cycle["period"]) if "period" in cycle else 60.0 / float(cycle["heartRate"])
+    return period, float(cycle.get("phase", 0.0))
 
 
 class _Curve:
@@ -232,7 +251,7 @@ def _read(file: Path, missing: dict[str, float]) -> dict[str, np.ndarray]:
     table: dict[str, np.ndarray] = {}
     for head, column in zip(lines[0], zip(*lines[1:])):
         name, _, unit = head.strip().partition("_")
-        table[name] = _SIZES.get(unit, 1.0) * np.array(column, dtype=float)
+        table[name] = SIZES.get(unit, 1.0) * np.array(column, dtype=float)
     count = len(lines) - 1
     return {**{name: np.full(count, value) for name, value in missing.items()}, **table}
 

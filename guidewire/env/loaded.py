@@ -7,7 +7,7 @@ import tempfile
 from collections import OrderedDict
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -18,6 +18,9 @@ from guidewire.env.route import Placement, Route
 from guidewire.env.spaces import Error
 from guidewire.env.task import Task
 from guidewire.sessions.session import Session, SessionError, State
+
+if TYPE_CHECKING:
+    from guidewire.anatomy.motion import VesselMotion
 
 _STARTS = 128  # snapshots kept of starts, of some 30 kB each
 _ROUTES = 12  # kept, of 1,000 points each
@@ -57,6 +60,7 @@ class LoadedScene:
         self._key = ""    # of the draw that is loaded
         self._folder: tempfile.TemporaryDirectory[str] | None = None    # of a vessel that was drawn
         self._starts: OrderedDict[tuple[Any, ...], bytes] = OrderedDict()
+        self._motion: tuple[str, VesselMotion | None] = ("", None)    # of a vessel as a scene describes it
         self._routes: OrderedDict[tuple[Any, ...], tuple[Any, Route]] = OrderedDict()    # of vessels where they are
 
     def load(self, draw: Draw) -> bool:
@@ -128,6 +132,8 @@ class LoadedScene:
             self._starts.move_to_end(key)
             return self.session.restore(self._starts[key])
         for parts in _TRIED:    # a wire whose tip catches may come there in shorter steps
+            if self.session.state.step > 0:
+                self.session.reset()
             state = self._moved(tip_turn, insertions, parts)
             if state.outcome is None:
                 break
@@ -143,7 +149,6 @@ class LoadedScene:
         return state
 
     def _moved(self, tip_turn: float, insertions: Sequence[float], parts: int) -> State:
-        self.session.reset()
         steps = parts * max(int(np.ceil(abs(tip_turn) / _LARGEST_TURN)), int(np.ceil(max(insertions) / _LARGEST_PUSH)))
         state = self.session.step([one / self.unit for one in insertions], [tip_turn] * self.hubs, steps)
         return self.session.step() if state.outcome is None else state
@@ -155,4 +160,20 @@ class LoadedScene:
             self._routes[key] = self.anatomy, Route(self.anatomy, target, self.anatomy["metresPerUnit"] / self.unit)
             if len(self._routes) > _ROUTES:
                 self._routes.popitem(last=False)
-        return self._routes[key][1].placed(Placement.of(self.session.parameters))
+        return self._routes[key][1].placed(Placement.of(self.session.parameters), self._how_it_moves())
+
+    def _how_it_moves(self) -> VesselMotion | None:
+        """Return how the vessel moves, None where it stands still."""
+        parameters = self.session.parameters
+        if not (parameters["vessel"] or {}).get("motion"):
+            return None
+        from guidewire.anatomy.motion import motion_of    # needs scipy
+
+        motion = parameters["vessel"]["motion"]
+        rest = {key: value for key, value in motion.items() if key not in ("period", "heartRate", "phase", "breathing")}
+        key = json.dumps([rest, motion.get("breathing"), *map(parameters.get, ("position", "rotation", "scale"))])
+        if self._motion[0] != key:
+            self._motion = key, motion_of(parameters)
+        else:
+            self._motion[1].set_pace(motion)
+        return self._motion[1]

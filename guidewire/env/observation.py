@@ -19,10 +19,10 @@ from guidewire.env.spaces import Box, Dict, Error, Space
 from guidewire.sessions.session import State
 
 PARTS = ("tip", "direction", "points", "screen", "hub", "loads", "wall", "overlap", "distance", "target", "ahead",
-         "action", "image")
+         "beat", "action", "image")
 DEFAULT = ("tip", "direction", "hub", "loads", "wall", "distance", "ahead")
 _OF_EACH = {"tip": (3,), "direction": (3,), "hub": (2,), "loads": (2,), "wall": (2,), "distance": ()}  # instrument
-_UNIT = ("direction", "ahead", "action")  # from -1 to 1 as they are
+_UNIT = ("direction", "ahead", "beat", "action")  # from -1 to 1 as they are
 _FROM_TARGET = ("tip", "points")  # where normalised
 # What stands for 1 where they are normalised: mm in the tasks that ship, rad, N, N mm.
 RANGES: Mapping[str, Any] = {"tip": 300.0, "points": 300.0, "screen": 300.0, "hub": (300.0, 8.0 * math.pi),
@@ -45,7 +45,7 @@ class Observation:
         centreline, units (1,). Of the catheters "overlap": length beyond its tip of what is inside, and over which that
         is inside, units (k - 1, 2). Of the wire "target": from the tip to it (3,); "ahead": unit vector (3,) from the
         tip to the point of the centreline that is `lookahead` nearer to the target, in the frame d1, d2, d3 of the last
-        element. "action": the last one, as fractions (2 k,); "image": what `image` gives.
+        element. "beat": cosine and sine of the phase of a vessel that moves (2,), 0 of others. "action": the last one, as fractions (2 k,); "image": what `image` gives.
     points : how many.
     spacing : elements between two of them.
     screen : (2, 3), directions of the picture's axes to the right and upwards; the projection is parallel.
@@ -108,7 +108,7 @@ class Observation:
         own = {**_OF_EACH, "points": (self.points, 3), "screen": (self.points, 2)}.get(part)
         if own is not None:
             return (hubs, *own) if hubs > 1 else own or (1,)
-        return {"overlap": (hubs - 1, 2), "action": (2 * hubs,)}.get(part, (3,))
+        return {"overlap": (hubs - 1, 2), "action": (2 * hubs,), "beat": (2,)}.get(part, (3,))
 
     def space(self, hubs: int = 1) -> Space:
         """Return the space of the observations of so many instruments."""
@@ -149,8 +149,7 @@ class Observer:
         self._ranges = {part: np.asarray(observation.ranges.get(part, value), dtype=float)
                         for part, value in RANGES.items()}
         self.action = np.zeros(2 * hubs)
-        self._target = route.points[route.target]
-        self._pictures = (PictureState(observation.image, seed, self._target) if isinstance(observation.image, Picture)
+        self._pictures = (PictureState(observation.image, seed) if isinstance(observation.image, Picture)
                           else observation.image)
         self._takes_target = callable(observation.image) and _count_of_arguments(observation.image) > 1
         own = {name: value for name, value in vars(observation).items() if not name.startswith("image")}
@@ -204,8 +203,8 @@ class Observer:
 
     def _picture(self, state: State, is_known: bool) -> np.ndarray:
         if isinstance(self._pictures, PictureState):
-            return self._pictures.last() if is_known else self._pictures.of(state)
-        return self._pictures(state, self._target) if self._takes_target else self._pictures(state)
+            return self._pictures.last() if is_known else self._pictures.of(state, self._route.target_position)
+        return self._pictures(state, self._route.target_position) if self._takes_target else self._pictures(state)
 
     def _take(self, instruments: Sequence[Instrument], places: Sequence[tuple[int, float]]) -> None:
         seen = {}
@@ -220,20 +219,22 @@ class Observer:
         if part in _UNIT:
             return value
         if part in _FROM_TARGET:
-            value = value - self._route.points[self._route.target]
+            value = value - self._route.target_position
         elif part == "screen":
-            value = value - self._route.points[self._route.target] @ self._screen
+            value = value - self._route.target_position @ self._screen
         return np.clip(value / self._ranges[part], -1.0, 1.0)
 
     def _part(self, part: str, instruments: Sequence[Instrument], places: Sequence[tuple[int, float]]) -> Any:
         wire, *catheters = instruments
         tip = wire.positions[-1]
         if part == "target":
-            return self._route.points[self._route.target] - tip
+            return self._route.target_position - tip
         if part == "ahead":
             heading = _in_frame(wire.orientations[-1],
                                 self._route.ahead(places[0][0], self._observation.lookahead) - tip)
             return _within_one(heading / max(math.hypot(*heading.tolist()), 1e-12))
+        if part == "beat":
+            return (0.0, 0.0) if self._route.motion is None else self._route.motion.beat
         if part == "overlap":
             return [(one.hub.extension / self._unit, one.hub.overlap / self._unit) for one in catheters]
         if part == "action":

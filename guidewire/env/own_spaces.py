@@ -109,7 +109,7 @@ class MultiDiscrete(Space):
         return f"MultiDiscrete({self.nvec})"
 
 
-class Dict(Space):
+class Dict(Space, Mapping):
     """A value of a space for each name."""
 
     def __init__(self, spaces: Mapping[str, Space]) -> None:
@@ -139,18 +139,6 @@ class Dict(Space):
 
     def __len__(self) -> int:
         return len(self.spaces)
-
-    def keys(self):
-        """Of the parts."""
-        return self.spaces.keys()
-
-    def items(self):
-        """Of the parts."""
-        return self.spaces.items()
-
-    def values(self):
-        """Of the parts."""
-        return self.spaces.values()
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Dict) and self.spaces == other.spaces

@@ -91,18 +91,20 @@ class PictureState:
     ----------
     picture : which.
     seed : of the noise.
-    target : (3,), units.
     """
 
-    def __init__(self, picture: Picture, seed: int, target: np.ndarray) -> None:
-        self._picture, self._seed, self._step, self._target = picture, seed, 0, target
+    def __init__(self, picture: Picture, seed: int) -> None:
+        self._picture, self._seed, self._step = picture, seed, 0
         self._arms: list[CArm] = []
         self._vessels: list[np.ndarray] = []    # of each plane, where the vessel is seen
         self._radii: list[float] = []    # of each instrument, units
         self._frames: deque[list[np.ndarray]] = deque(maxlen=picture.frames)
 
-    def of(self, state: State) -> np.ndarray:
-        """Return the pictures after a step; before the first frames there are copies of the first one."""
+    def of(self, state: State, target: np.ndarray) -> np.ndarray:
+        """Return the pictures after a step; before the first frames there are copies of the first one.
+
+        target : (3,), units.
+        """
         picture = self._picture
         if self._step % picture.every == 0:
             shared = {"pixels": picture.pixels, "vessel": picture.vessel, "noise": picture.noise, "blur": picture.blur}
@@ -110,22 +112,24 @@ class PictureState:
             shared |= {key: value for key, value in where if value is not None}
             planes, labels = [], []
             if (picture.target or picture.labels) and not self._arms:
-                self._look(state, shared)
+                self._look(state)
+            if picture.labels and (not self._vessels or (state.session.parameters["vessel"] or {}).get("motion")):
+                self._vessels = [self._vessel(state, arm, view, shared) for arm, view in zip(self._arms, picture.views)]
             for k, (lao, cranial) in enumerate(picture.views):
                 shared |= self._arms[k].place if self._arms else {}
                 planes.append(state.picture(lao=lao, cranial=cranial, seed=self._seed, **shared))
                 self._seed = (self._seed + 1) % 2**32
             for arm, plane in zip(self._arms, planes):
                 if picture.labels:
-                    labels.append(self._labels(state, arm, self._vessels[len(labels)]))
+                    labels.append(self._labels(state, arm, self._vessels[len(labels)], target))
                 if picture.target:
-                    plane[np.abs(arm.distances(self._target) - max(2.0, picture.pixels / 32.0)) < 0.75] = 255
+                    plane[np.abs(arm.distances(target) - max(2.0, picture.pixels / 32.0)) < 0.75] = 255
             self._frames.extend([planes + labels] * (1 if self._frames else picture.frames))
         self._step += 1
         return self.last()
 
-    def _look(self, state: State, shared: dict[str, Any]) -> None:
-        """Find how each plane is seen, and the vessel in it."""
+    def _look(self, state: State) -> None:
+        """Find how each plane is seen."""
         session = state.session
         known = session.describe()
         self._radii = [max(one["radii"]) for one in known["instruments"]]
@@ -134,16 +138,16 @@ class PictureState:
         box = np.array([np.concatenate(corners).min(axis=0), np.concatenate(corners).max(axis=0)])
         picture, unit = self._picture, 1e3 * float(session.parameters["metresPerUnit"])
         self._arms = [CArm(picture, lao, cranial, axes, box, unit) for lao, cranial in picture.views]
-        if picture.labels:
-            shown = {**shared, "noise": 0.0, "blur": 0.0}
-            for arm, (lao, cranial) in zip(self._arms, picture.views):
-                filled, empty = (state.picture(lao=lao, cranial=cranial, **{**shown, **arm.place, "vessel": vessel},
-                                               contrast=_FILLED) for vessel in ("contrast", "none"))
-                self._vessels.append(filled < empty)
 
-    def _labels(self, state: State, arm: CArm, vessel: np.ndarray) -> np.ndarray:
+    def _vessel(self, state: State, arm: CArm, view: tuple[float, float], shared: dict[str, Any]) -> np.ndarray:
+        shown = {**shared, "noise": 0.0, "blur": 0.0, "lao": view[0], "cranial": view[1], **arm.place}
+        filled, empty = (state.picture(**{**shown, "vessel": vessel}, contrast=_FILLED)
+                         for vessel in ("contrast", "none"))
+        return filled < empty
+
+    def _labels(self, state: State, arm: CArm, vessel: np.ndarray, target: np.ndarray) -> np.ndarray:
         labels = np.where(vessel, VESSEL, BACKGROUND).astype(np.uint8)
-        labels[arm.distances(self._target) <= 2.0] = TARGET
+        labels[arm.distances(target) <= 2.0] = TARGET
         for k, one in [*enumerate(state.catheters, 1), (0, state)]:
             arm.draw(labels, one.positions, self._radii[k] * arm.scale, WIRE + k)
         return labels

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import json
 import math
 from collections.abc import Mapping, Sequence
@@ -67,7 +68,12 @@ def reshaped(scene: Mapping[str, Any], anatomy: Mapping[str, Any], warp: Sequenc
         vessel["warp"] = [float(one) for one in warp]
         # The rims of the mesh as it is in its file.
         vessel.setdefault("openRims", {end["name"]: end["centre"] for end in anatomy["ends"] if end["open"]})
-        _move(anatomy, Field(_box(file), warp))
+        field = Field(_box(file), warp)
+        _move(anatomy, field)
+        if isinstance(vessel.get("motion"), Mapping) and "centreline" in vessel["motion"]:
+            unit = float(vessel.get("metresPerUnit", scene.get("metresPerUnit", 1e-3)))
+            table = _moved_table(Path(vessel["motion"]["centreline"]), field, unit, folder)
+            vessel["motion"] = {**vessel["motion"], "centreline": str(table)}
     if entry is not None and any(entry):
         end = _inlet(anatomy, scene.get("inlet"))
         end["direction"] = _tilted(np.array(end["direction"]), entry).tolist()
@@ -94,6 +100,29 @@ def _move(anatomy: dict[str, Any], field: Field) -> None:
         end["centre"] = field.moved(centre)[0].tolist()
         end["direction"] = (direction / np.linalg.norm(direction)).tolist()
         end["radius"] *= float(shrunk[end["point"]])
+
+
+def _moved_table(file: Path, field: Field, unit: float, folder: Path) -> Path:
+    """Write what a centreline does with its places at rest where the field moves them, and return that file. Its
+    displacements stay.
+
+    unit : of the field, m.
+    """
+    from guidewire.anatomy.motion import SIZES    # needs scipy
+
+    with open(file, encoding="utf-8-sig", newline="") as text:
+        head, *rows = [row for row in csv.reader(text) if row and not row[0].lstrip().startswith("#")]
+    names = [name.strip().partition("_") for name in head]
+    columns = [next(k for k, (name, _, _) in enumerate(names) if name == axis) for axis in "xyz"]
+    sizes = np.array([SIZES.get(names[k][2], 1.0) / unit for k in columns])
+    places = np.array([[row[k] for k in columns] for row in rows], dtype=float)
+    for row, place in zip(rows, field.moved(places * sizes) / sizes):
+        for k, value in zip(columns, place.tolist()):
+            row[k] = repr(value)
+    moved = folder / file.name
+    with open(moved, "w", encoding="utf-8", newline="") as text:
+        csv.writer(text).writerows([head, *rows])
+    return moved
 
 
 def _across(gradients: np.ndarray, along: np.ndarray) -> np.ndarray:

@@ -5,11 +5,14 @@ from __future__ import annotations
 import copy
 import math
 from collections.abc import Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from guidewire.env.spaces import Error
+
+if TYPE_CHECKING:
+    from guidewire.anatomy.motion import VesselMotion
 
 
 class Placement(NamedTuple):
@@ -66,8 +69,11 @@ class Route:
 
     Notes
     -----
-    A point p belongs to the sphere of the centreline with the least |p - c|^2 - r^2, as in the runner's summary.
+    A point p belongs to the sphere of the centreline with the least |p - c|^2 - r^2, as in the runner's summary. Of a
+    vessel that moves p and the centreline are those at rest.
     """
+
+    motion: VesselMotion | None = None
 
     def __init__(self, anatomy: Mapping[str, Any], target: str | int | Sequence[Any] | Mapping[str, Any],
                  unit: float = 1.0, placement: Placement | None = None) -> None:
@@ -129,13 +135,31 @@ class Route:
         if placement is not None and not placement.is_none:
             self._move(placement)
 
-    def placed(self, placement: Placement) -> Route:
-        """Return the way where a scene places the vessel; this one is of the vessel as it is."""
-        if placement.is_none:
+    def placed(self, placement: Placement, motion: VesselMotion | None = None) -> Route:
+        """Return the way where a scene places the vessel, and as it moves; this one is of the vessel as it is."""
+        if placement.is_none and motion is None:
             return self
         moved = copy.copy(self)
-        moved._move(placement)
+        moved.motion = motion
+        if not placement.is_none:
+            moved._move(placement)
         return moved
+
+    @property
+    def target_position(self) -> np.ndarray:
+        """(3,), units, where it is now."""
+        return self._now(self.points[self.target])
+
+    def set_time(self, time: float) -> None:
+        """Go to a time, s, in which a vessel moves."""
+        if self.motion is not None:
+            self.motion.set_time(time)
+
+    def _now(self, point: np.ndarray) -> np.ndarray:
+        return point if self.motion is None else self.motion.moved(point[None])[0]
+
+    def _at_rest(self, point: np.ndarray) -> np.ndarray:
+        return point if self.motion is None else self.motion.at_rest(point[None])[0][0]
 
     def _move(self, placement: Placement) -> None:
         scale, turn = placement.scale, placement.rotation.T
@@ -149,17 +173,20 @@ class Route:
     def place(self, point: np.ndarray) -> tuple[int, float]:
         """Return the centreline's point that a point (3,) belongs to, and the distance that is left from there,
         units."""
+        point = self._at_rest(point)
         index = int(np.argmin(self._power - 2.0 * (self.points @ point)))
         along, length = float((point - self.points[index]) @ self._steps[index]), float(self._lengths[index])
         return index, float(self.left[index]) - min(max(along, -length), length)
 
     def has_left(self, point: np.ndarray) -> bool:
         """Return whether a point (3,) is beyond one of the ends but the first, in whose sphere its place is."""
+        point = self._at_rest(point)
         index = int(np.argmin(self._power - 2.0 * (self.points @ point)))
         return bool(index in self._outlets and (point - self.points[index]) @ self._outlets[index] > 0.0)
 
     def until_outlet(self, point: np.ndarray) -> float:
         """Return how far it is from a point (3,) along the centreline to the nearest open end downstream, units."""
+        point = self._at_rest(point)
         index = int(np.argmin(self._power - 2.0 * (self.points @ point)))
         return float(self.until_end[index] - (point - self.points[index]) @ self._downstream[index])
 
@@ -168,7 +195,7 @@ class Route:
         goal = self.left[index] - distance
         while index != self.target and self.left[index] > goal:
             index = int(self.next[index])
-        return self.points[index]
+        return self._now(self.points[index])
 
 
 def _is_number(value: Any) -> bool:

@@ -37,6 +37,7 @@ LIMITS = {"friction": (0.0, 10.0), "tip_turn": (-100.0, 100.0), "insertion": (0.
 _BY_LISTS = ("anatomy", "target", "instrument", "nominal", "snapshot")  # options that no distribution draws
 _EACH = ("insertion", "speed", "rotation")  # number, or a list of one for each hub
 BASELINES = ("", "retry", "follow", "lead")
+_FILES = ("file", "anatomy", "centreline", "rigid")  # of a vessel and its motion
 _STIFF = ("youngsModulus", "shearModulus")
 
 
@@ -125,11 +126,7 @@ class Task:
         if not isinstance(scene.get("vessel"), Mapping):
             raise Error(f"{scene_file}: vessel = {json.dumps(scene.get('vessel'))} is not allowed: a task needs an "
                         "object")
-        vessel = {**scene["vessel"], "frictionCoefficient": draw.friction}
-        for key in ("file", "anatomy"):
-            if key in vessel:
-                vessel[key] = str((scene_file.parent / vessel[key]).resolve())
-        scene["vessel"] = vessel
+        scene["vessel"] = {**_whole(scene["vessel"], scene_file.parent), "frictionCoefficient": draw.friction}
         scene.pop("driveFile", None)    # the drives of a file are not those of an episode
         if scene.get("catheters"):
             scene["catheters"] = [{key: value for key, value in one.items() if key != "driveFile"}
@@ -346,6 +343,13 @@ def _vessels(anatomy: Any, task: str, file: Path) -> list[Any]:
 def _beside(file: Path, name: str) -> str:
     """A file that a task names: relative to the task's own file, else one that comes with the program."""
     return str(next((place for place in (file.parent / name, ROOT / name) if place.is_file()), file.parent / name))
+
+
+def _whole(table: Mapping[str, Any], folder: Path) -> dict[str, Any]:
+    """A vessel, or its motion, with whole names of its files."""
+    return {key: _whole(value, folder) if key in ("motion", "breathing") and isinstance(value, Mapping)
+            else str((folder / value).resolve()) if key in _FILES and isinstance(value, str) else value
+            for key, value in table.items()}
 
 
 def _number(entry: Mapping[str, Any], key: str, least: float, most: float, file: Path) -> float:

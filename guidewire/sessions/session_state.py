@@ -7,6 +7,7 @@ import math
 import weakref
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields
+from functools import cache
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
@@ -22,6 +23,7 @@ _STRAINS = ("curvature", "couple", "strain", "force", "energy")
 _DIGITS = "0123456789"  # of a catheter, behind the name of an array of its own
 
 
+@cache
 def snake(name: str) -> str:
     """Return the name of an attribute for a name of the table of quantities."""
     return "".join("_" + letter.lower() if letter.isupper() else letter for letter in name)
@@ -374,15 +376,22 @@ def _place(arrays: Mapping[str, np.ndarray], number: str) -> LumenPlace | None:
 def _members(array: str, numbers: np.ndarray) -> dict[str, Any]:
     """Return the quantities of a row of an array by the names of attributes; None for what a run does not have."""
     members: dict[str, Any] = {}
-    at = 0
+    for name, where, kind, may_be_none in _members_of(array):
+        own = numbers[where]
+        members[name] = None if may_be_none and math.isnan(own) else own if kind is None else kind(own)
+    return members
+
+
+@cache
+def _members_of(array: str) -> list[tuple[str, Any, type | None, bool]]:
+    """Return of each quantity its attribute, its place in a row, its type, None of several numbers, and whether it may
+    be None."""
+    members, at = [], 0
     for row in _IN_ANSWERS[array]:
-        own = numbers[at:at + row.width]
-        at += row.width
         name = snake(row.summary or row.name)
         if row.width > 1:
-            members[name] = own
-        elif (row.type == "whole" or name in _OPTIONAL) and math.isnan(own[0]):
-            members[name] = None
+            members.append((name, slice(at, at + row.width), None, False))
         else:
-            members[name] = _KINDS.get(row.type, float)(own[0])
+            members.append((name, at, _KINDS.get(row.type, float), row.type == "whole" or name in _OPTIONAL))
+        at += row.width
     return members

@@ -266,8 +266,8 @@ namespace Guidewire.Core
             foreach (WireSection section in material.Sections)
             {
                 // Where a section begins or ends is where something changes.
-                if (!(CrossSection.At(material, section.From).StretchStiffness > 0.0)
-                    || !(CrossSection.At(material, section.To).StretchStiffness > 0.0))
+                if (!(CrossSection.At(material, section.From, false).StretchStiffness > 0.0)
+                    || !(CrossSection.At(material, section.To, false).StretchStiffness > 0.0))
                 {
                     return true;
                 }
@@ -317,7 +317,7 @@ namespace Guidewire.Core
         {
             foreach (WireSection section in material.Sections)
             {
-                CrossSection here = CrossSection.At(material, section.From);
+                CrossSection here = CrossSection.At(material, section.From, false);
                 if (here.CoreRadius > here.Radius)
                 {
                     return true;
@@ -330,7 +330,7 @@ namespace Guidewire.Core
         private static bool HasStiffness(Facts p)
         {
             double length = p.Scene.MetresPerUnit * p.Scene.GuidewireLength;
-            double force = CrossSection.At(p.Material, 0.0).BendStiffness1 / (length * length);
+            double force = CrossSection.At(p.Material, 0.0, false).BendStiffness1 / (length * length);
             return force > 0.0 && !double.IsInfinity(force);
         }
 

@@ -115,7 +115,7 @@ def test_gymnasiums_own_check_passes_on_every_task(tube):
 
 def test_tasks_that_ship_name_their_files_and_turn_and_retry_reaches_a_branch():
     tasks = all_tasks()
-    assert {"artery", "arch", "siphon", "carotid", "microcatheter"} == set(tasks)
+    assert {"artery", "arch", "siphon", "carotid", "microcatheter", "coronary"} == set(tasks)
     assert all(task.summary and Path(file).is_file() for task in tasks.values() for file in task.anatomies)
     with Environment("artery") as own:
         played = play(own, TurnAndRetry(own), 1)

@@ -143,6 +143,10 @@ namespace Guidewire.Core
             };
         }
 
+        /// <summary>The same cycle, faster or slower, from another phase on.</summary>
+        public MotionCycle At(double period, double phase) =>
+            new MotionCycle(period, phase, _table, _sine) { IsRigid = IsRigid, About = About, Count = Count };
+
         /// <summary>Sets the values at a phase.</summary>
         internal void Evaluate(double phase, double[] values)
         {

@@ -82,7 +82,8 @@ namespace Guidewire.Core
 
         /// <summary>The wire of these parameters at a position, units from the proximal end: if sections overlap, the
         /// last one with a value applies.</summary>
-        public static CrossSection At(MaterialParameters material, double position)
+        /// <param name="hasLaw">Whether to make its fibres, where its bending is not linear.</param>
+        public static CrossSection At(MaterialParameters material, double position, bool hasLaw = true)
         {
             var wire = new WireSection
             {
@@ -112,7 +113,7 @@ namespace Guidewire.Core
             here.CoreRadius = 0.5 * wire.CoreDiameter ?? radius;
             here.RestCurvature = wire.RestCurvature ?? material.RestCurvature;
             here.TakeDirect(wire);
-            MaterialLaw? law = MaterialLaw.Of(wire, material.Fibres);
+            MaterialLaw? law = hasLaw ? MaterialLaw.Of(wire, material.Fibres) : null;
             here.Fibres = law == null ? null : FibresOf(law, wire, here.BendStiffness1, young, radius, inner);
             return here;
         }

@@ -27,6 +27,9 @@ namespace Guidewire.Io
         /// <summary>SHA-256 of what was read, in hex.</summary>
         internal string Sha256 { get; private set; } = "";
 
+        /// <summary>How it moved.</summary>
+        internal LastMotion Motion { get; } = new LastMotion();
+
         /// <summary>Gives the wall in a file, placed.</summary>
         /// <param name="file">As of <see cref="MeshFile.Read"/>.</param>
         /// <param name="scale">Units of the scene per unit of the file.</param>

@@ -13,14 +13,14 @@ namespace Guidewire.Io
         /// <summary>The field of a wall that says so.</summary>
         public const string Key = "motion";
 
-        private const string Period = "period";
-        private const string HeartRate = "heartRate";
-        private const string Phase = "phase";
+        internal const string Period = "period";
+        internal const string HeartRate = "heartRate";
+        internal const string Phase = "phase";
         private const string Rigid = "rigid";
         private const string Centreline = "centreline";
         private const string Spacing = "spacing";
         private const string RampTime = "rampTime";
-        private const string Breathing = "breathing";
+        internal const string Breathing = "breathing";
         private const string WithVessel = "vessel";
         private const double DefaultSpacing = 2e-3;    // m
         private const double Radians = Math.PI / 180.0;
@@ -32,9 +32,10 @@ namespace Guidewire.Io
         /// <param name="values">The scene, whose anatomy may have the centreline.</param>
         /// <param name="sourceOf">Who said what stands at a path.</param>
         /// <param name="vessel">The vessel's wall, or the obstacle's.</param>
+        /// <param name="last">The motion of the vessel that was read last; null for an obstacle.</param>
         /// <exception cref="ParameterException">A value that is not allowed, or a field that folds.</exception>
         public static WallMotion? Read(JsonFields fields, RunParameters values, Func<string, string> sourceOf,
-            ContactShape wall, WallMotion? vessel)
+            ContactShape wall, WallMotion? vessel, LastMotion? last = null)
         {
             if (!fields.Has(Key))
             {
@@ -52,12 +53,15 @@ namespace Guidewire.Io
             double spacing = units * Positive(own, Spacing, DefaultSpacing, "m");
             var branches = new List<Vector3d[]>();
             var cycles = new List<MotionCycle>();
-            ReadCycle(own, values, sourceOf, spacing, cycles, branches);
-            if (own.Has(Breathing))
+            JsonFields? breathing = own.Has(Breathing) ? own.Object(Breathing) : null;
+            breathing?.Allow(OfCycle);
+            FindFiles(own, sourceOf);
+            FindFiles(breathing, sourceOf);
+            WallMotion? known = last?.Find(values);
+            ReadCycle(own, values, sourceOf, spacing, cycles, branches, known);
+            if (breathing != null)
             {
-                JsonFields breathing = own.Object(Breathing);
-                breathing.Allow(OfCycle);
-                ReadCycle(breathing, values, sourceOf, spacing, cycles, branches);
+                ReadCycle(breathing, values, sourceOf, spacing, cycles, branches, known);
             }
             double ramp = own.Number(RampTime, 0.25 * cycles[0].Period);
             if (!(ramp >= 0.0))
@@ -65,9 +69,14 @@ namespace Guidewire.Io
                 throw own.Wrong(RampTime, "a number >= 0 (s)");
             }
             var motion = new WallMotion(cycles, branches, spacing, ramp);
-            string? fold = motion.FindFold(
+            string? fold = known != null ? null : motion.FindFold(
                 branches.SelectMany(branch => branch).Concat(wall.SurfacePoints()).ToArray());
-            return fold == null ? motion : throw own.Refused(fold);
+            if (fold != null)
+            {
+                throw own.Refused(fold);
+            }
+            last?.Keep(motion);
+            return motion;
         }
 
         /// <summary>What the files of all walls hold, for the parameter hash.</summary>
@@ -101,7 +110,7 @@ namespace Guidewire.Io
         }
 
         private static void ReadCycle(JsonFields fields, RunParameters values, Func<string, string> sourceOf,
-            double spacing, List<MotionCycle> cycles, List<Vector3d[]> branches)
+            double spacing, List<MotionCycle> cycles, List<Vector3d[]> branches, WallMotion? known)
         {
             if (fields.Has(Period) == fields.Has(HeartRate))
             {
@@ -125,6 +134,12 @@ namespace Guidewire.Io
                 if (branches.Count > 0)
                 {
                     throw fields.Wrong(Centreline, "rigid: only one cycle may move the centreline");
+                }
+                if (known != null)
+                {
+                    branches.AddRange(known.Branches);
+                    cycles.Add(known.Cycles[cycles.Count].At(period, phase));
+                    return;
                 }
                 cycles.Add(OfCentreline(fields, values, sourceOf, spacing, (period, phase), branches));
             }
@@ -217,9 +232,18 @@ namespace Guidewire.Io
             params TableColumn[] columns)
         {
             string path = fields.Key + "." + key;
-            string file = NamedFile.Find(fields.Text(key), sourceOf(path));
-            fields.Replace(key, file);
-            return TableReader.Read(file, sourceOf(path) + ": " + path + ": ", columns);
+            return TableReader.Read(fields.Text(key), sourceOf(path) + ": " + path + ": ", columns);
+        }
+
+        private static void FindFiles(JsonFields? cycle, Func<string, string> sourceOf)
+        {
+            foreach (string key in new[] { Rigid, Centreline })
+            {
+                if (cycle != null && cycle.IsText(key))
+                {
+                    cycle.Replace(key, NamedFile.Find(cycle.Text(key), sourceOf(cycle.Key + "." + key)));
+                }
+            }
         }
 
         private static double[] Phases(JsonFields fields, string key, List<double> phases)
@@ -239,6 +263,53 @@ namespace Guidewire.Io
         {
             double value = fields.Number(key, missing);
             return value > 0.0 ? value : throw fields.Wrong(key, "a number > 0 (" + unit + ")");
+        }
+    }
+
+    /// <summary>Keeps the motion that was read last: a vessel that only beats faster, begins at another phase or has
+    /// another friction is neither read nor searched for folds again. Runs have the same bits either way.</summary>
+    internal sealed class LastMotion
+    {
+        private string? _asked;    // what the parameters say of the vessel that was asked for
+        private string? _vessel;
+        private WallMotion? _motion;
+
+        /// <summary>The motion of the vessel of these parameters, but for its period and phase; null: it is another
+        /// one.</summary>
+        public WallMotion? Find(RunParameters values)
+        {
+            try
+            {
+                _asked = TextOf(values);
+            }
+            catch (Exception error) when (error is IOException || error is UnauthorizedAccessException)
+            {
+                _asked = null;    // whoever reads the file says so
+            }
+            return _asked != null && _asked == _vessel ? _motion : null;
+        }
+
+        /// <summary>Keeps a motion that does not fold the vessel that was asked for.</summary>
+        public void Keep(WallMotion motion) => (_vessel, _motion) = (_asked, motion);
+
+        // With the sum of its mesh and the content of its tables.
+        private static string TextOf(RunParameters values)
+        {
+            var vessel = (JObject)values.Vessel!.DeepClone();
+            vessel.Remove("frictionCoefficient");
+            if (vessel[MotionReader.Key] is JObject motion && !motion.ContainsKey(MotionReader.Breathing))
+            {
+                // Of one cycle alone all phases are the same, however fast it is.
+                motion.Remove(MotionReader.Period);
+                motion.Remove(MotionReader.HeartRate);
+                motion.Remove(MotionReader.Phase);
+            }
+            var placed = new JArray(values.Simulation.Scene.MetresPerUnit);
+            foreach (Vector3d part in new[] { values.Position, values.Rotation, values.Scale })
+            {
+                placed.Add(new JArray(part.X, part.Y, part.Z));
+            }
+            return NumberText.Write(vessel) + NumberText.Write(placed) + MotionReader.Content(values.Vessel);
         }
     }
 }

@@ -33,7 +33,7 @@ namespace Guidewire.Io
                 vessel.FrictionCoefficient = Friction(fields);
                 vessel.Softness = SoftnessReader.Read(fields);
                 SoftnessReader.ReadRegions(fields, vessel.Softness, values.Anatomy);
-                vessel.Motion = MotionReader.Read(fields, values, sourceOf, vessel, null);
+                vessel.Motion = MotionReader.Read(fields, values, sourceOf, vessel, null, from.Mesh?.Motion);
                 walls.Add(vessel);
                 values.Places = values.Path == null ? null
                     : new LumenPlaces(values.Path, values.Anatomy!.Ends, vessel);

@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Reflection;
 using Guidewire.Core;
 using Newtonsoft.Json.Linq;
 
@@ -68,11 +69,15 @@ namespace Guidewire.Io
             var words = new List<string>();
             foreach ((string name, string unit, bool mayBeZero) in Numbers)
             {
-                string property = NamedProperty.Of(name);
+                PropertyInfo property = typeof(WireSection).GetProperty(NamedProperty.Of(name))!;
+                var get = (Func<WireSection, double?>)Delegate.CreateDelegate(typeof(Func<WireSection, double?>),
+                    property.GetMethod!);
+                var set = (Action<WireSection, double?>)Delegate.CreateDelegate(typeof(Action<WireSection, double?>),
+                    property.SetMethod!);
                 string inUnit = unit.Length > 0 ? " (" + unit + ")" : "";
                 NumberRange range = mayBeZero ? NumberRange.NotNegative : NumberRange.Positive;
-                fields.Add(name, "a number" + range.Text + inUnit, Kinds.Number(range),
-                    s => NamedProperty.Get<double?>(s, property), (s, v) => NamedProperty.Set<double?>(s, property, v));
+                fields.Add(name, "a number" + range.Text + inUnit, Kinds.Number(range), s => get(s),
+                    (s, v) => set(s, v));
                 words.Add("\"" + name + "\"" + inUnit + (mayBeZero ? " >= 0" : ""));
             }
             fields.Add("restCurvature", "three numbers [x, y, z] (rad/m)", Kinds.Vector(true), s => s.RestCurvature,

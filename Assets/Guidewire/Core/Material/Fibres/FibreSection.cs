@@ -230,7 +230,12 @@ namespace Guidewire.Core
                     (before, value) = (value, ((2.0 * n - 1.0) * x * value - (n - 1.0) * before) / n);
                 }
                 slope = count * (x * value - before) / (x * x - 1.0);
-                x -= value / slope;
+                double next = x - value / slope;
+                if (next == x)
+                {
+                    break;
+                }
+                x = next;
             }
             return (x, 2.0 / ((1.0 - x * x) * slope * slope));
         }
