@@ -202,7 +202,8 @@ def _insertion() -> scenes.Asking[Asked]:
         ("implicitEuler", 60, 2e-2, None), ("implicitEuler", 60, 1e-2, None), ("implicitEuler", 60, 1e-2, 1e-5),
         ("implicitEuler", 90, 1e-2, 1e-5), ("implicitEuler", 120, 2e-2, 5e-6), ("implicitEuler", 150, 2e-2, 5e-6),
         ("implicitEuler", 200, 2e-2, 2.5e-6), ("bdf2", 60, 1e-2, None), ("bdf2", 150, 2e-2, 5e-6),
-        ("trbdf2", 60, 2e-2, None), ("trbdf2", 60, 1e-2, None), ("trbdf2", 150, 4e-2, 5e-6), ("trbdf2", 150, 2e-2, 5e-6)))
+        ("trbdf2", 60, 2e-2, None), ("trbdf2", 60, 1e-2, None), ("trbdf2", 150, 4e-2, 5e-6),
+        ("trbdf2", 150, 2e-2, 5e-6)))
     for n, substeps, m in ((20, 5000, 1), (20, 2000, 3), (30, 7500, 1), (60, 15000, 1)):
         changed = {"substeps": substeps, "constraintSolverSteps": m}
         made.append(Setting("xpbd", *settings.small_steps(n, 1e-2 / substeps, m), case(

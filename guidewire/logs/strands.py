@@ -25,8 +25,8 @@ class Passage:
     entry : index of the log's entry at whose end it is past.
     elements : the two elements that crossed.
     writhe : change of the writhe since the entry before.
-    may_be_round_the_tip : whether the wire moved farther between the entries than it is long from the crossing to its
-        tip. Then a strand may as well have gone round the tip, and only a finer log can tell.
+    may_be_round_the_tip : whether strands may have moved farther against each other between the entries than the wire
+        is long from the crossing to its tip. Then a strand may as well have gone round the tip, and only a finer log can tell.
     """
 
     entry: int
@@ -119,7 +119,7 @@ def passages(positions: np.ndarray) -> list[Passage]:
         if crossed and np.sum([sign for _, _, sign in crossed]) * (now - last) != 0:
             moved = np.linalg.norm(positions[k] - positions[k - 1], axis=1).max()
             left = np.linalg.norm(np.diff(positions[k], axis=0), axis=1)[max(one for _, one, _ in crossed):].sum()
-            found.append(Passage(k, crossed[0][:2], now - last, bool(moved > left)))
+            found.append(Passage(k, crossed[0][:2], now - last, bool(2.0 * moved > left)))
         last = now
     return found
 

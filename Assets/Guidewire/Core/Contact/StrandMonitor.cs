@@ -12,9 +12,9 @@ namespace Guidewire.Core
     ///
     /// Two elements a0 + s u and b0 + t v can meet only where (a0 - b0) . (u x v) is 0, a cubic in the time. With a
     /// method that keeps strands apart a straight line may still cut a strand round which the wire snapped: there the
-    /// crossings of a passage have a sum that is not 0, and change the writhe by 2 (Fuller 1971); and where the wire
-    /// has moved farther than it is long from the crossing to its tip, a strand may as well have gone round the
-    /// tip.</remarks>
+    /// crossings of a passage have a sum that is not 0, and change the writhe by 2 (Fuller 1971); and where its
+    /// strands may have moved farther against each other than the wire is long from the crossing to its tip, one may as
+    /// well have gone round the tip.</remarks>
     internal sealed class StrandMonitor
     {
         private const double Touching = 1e-8;    // of the elements' lengths: a distance that is rounding
@@ -118,7 +118,8 @@ namespace Guidewire.Core
             snapshot.Serialize(ref _second);
         }
 
-        // Whether a node moved farther than the wire is long from this element to its tip.
+        // Whether two strands may have moved farther against each other than the wire is long from this element to its
+        // tip.
         private bool IsRoundTip(Vector3d[] x, int element)
         {
             double moved = 0.0;
@@ -126,7 +127,7 @@ namespace Guidewire.Core
             {
                 moved = Math.Max(moved, Vector3d.Distance(_from[i], x[i]));
             }
-            return moved > _pairs.ArcOf(_count) - _pairs.ArcOf(element);
+            return 2.0 * moved > _pairs.ArcOf(_count) - _pairs.ArcOf(element);
         }
 
         // The double integral of Gauss over the polyline: the signed solid angles of all pairs of its elements.

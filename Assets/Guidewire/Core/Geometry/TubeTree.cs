@@ -205,9 +205,9 @@ namespace Guidewire.Core
         }
     }
 
-    /// <summary>Pieces of a tube that overlap pieces which are not next to them: legs of a hairpin, where the tube comes
-    /// back to itself, and where it widens so much in short pieces that one holds the crease of others. A segment may
-    /// cross from one to the other at no knot.</summary>
+    /// <summary>Pieces of a tube that overlap pieces which are not next to them: legs of a hairpin, where the tube
+    /// comes back to itself, and where it widens so much in short pieces that one holds the crease of others. A segment
+    /// may cross from one to the other at no knot.</summary>
     internal sealed class TubeOverlaps
     {
         private const double LargestTurn = 1.0;    // radians between axes of pieces that pieces between them separate
@@ -303,8 +303,9 @@ namespace Guidewire.Core
                         }
                         break;
                     }
-                    x += ((first * Vector3d.Dot(two, along) - second * Vector3d.Dot(one, along)) / determinant) * across
-                        + ((second * Vector3d.Dot(one, across) - first * Vector3d.Dot(two, across)) / determinant) * along;
+                    double outwards = first * Vector3d.Dot(two, along) - second * Vector3d.Dot(one, along);
+                    double forwards = second * Vector3d.Dot(one, across) - first * Vector3d.Dot(two, across);
+                    x += (outwards / determinant) * across + (forwards / determinant) * along;
                 }
             }
         }

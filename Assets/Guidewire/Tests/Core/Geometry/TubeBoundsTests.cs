@@ -76,8 +76,8 @@ namespace Guidewire.Core.Tests
             Assert.That(found, Is.GreaterThan(100));
         }
 
-        /// <summary>In a tube of hairpins, whose legs overlap, and in a sac, whose pieces hold creases of others, a segment
-        /// is as near to the wall as its ends and edge contacts are.</summary>
+        /// <summary>In a tube of hairpins, whose legs overlap, and in a sac, whose pieces hold creases of others, a
+        /// segment is as near to the wall as its ends and edge contacts are.</summary>
         [TestCase(false)]
         [TestCase(true)]
         public void EdgeContacts_WherePiecesOverlap_HoldTheNearestPoint(bool isSac)
