@@ -61,7 +61,7 @@ def catheter_name(name: str, number: int) -> str:
     return f"catheter{number + 1 if number else ''}{name[0].upper()}{name[1:]}"
 
 
-_SHAPES = {"run": "", "node": "n + 1", "element": "n", "joint": "n + 1", "wall": "walls"}
+_SHAPES = {"run": "", "node": "n + 1", "element": "n", "joint": "n + 1", "wall": "walls", "point": "points"}
 _SWITCHES = {"always": "every log", "never": "", "sheath": "a sheath"}
 
 

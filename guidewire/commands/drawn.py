@@ -8,9 +8,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from guidewire.anatomy.motion import motions_of
+from guidewire.anatomy.motion import GivenVessel, given_walls, motions_of
 from guidewire.figures.render import Instrument, instruments_of
-from guidewire.logs.logs import PositionLog
+from guidewire.logs.logs import PositionLog, read_columns
 from guidewire.logs.runs import PARAMETERS_NAME, Run
 from guidewire.logs.surfaces import Surface
 from guidewire.logs.walls import drawn_of, soft_walls
@@ -36,15 +36,21 @@ def walls_of(run: Run, log: PositionLog, middle: np.ndarray, reach: float
         with session_of(run.folder / PARAMETERS_NAME) as session:
             drawn, motions = drawn_of(run, log), motions_of(run.parameters)
             rest = session.walls(middle, reach)
+            given = given_walls(run.parameters)
+            bent = read_columns(run.folder, ["vesselCentreline"], log.steps)["vesselCentreline"] if given else []
+            vessel = GivenVessel(np.asarray(bent[0])[:, :3]) if given else None
 
             def at(k: int) -> list[Surface]:
                 walls = session.walls(middle, reach, drawn[k]) if soft_walls(run.parameters) else list(rest)
+                for number in given:
+                    walls[number] = replace(walls[number], vertices=vessel.moved(
+                        walls[number].vertices, np.asarray(bent[k])[:, 3:]))
                 for number, motion in motions.items():
                     motion.set_time(float(log.time[k]))
                     walls[number] = replace(walls[number], vertices=motion.moved(walls[number].vertices))
                 return walls
 
-            yield rest, at if motions or soft_walls(run.parameters) else None
+            yield rest, at if motions or given or soft_walls(run.parameters) else None
     except SessionError as error:
         raise PreparationError(str(error)) from error
 

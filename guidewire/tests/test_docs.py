@@ -250,8 +250,9 @@ def test_every_array_of_a_log_is_explained(live, tmp_path):
     found = set()
     soft = {"logContacts": True, "vessel.wallStiffness": 1e5}
     moving = {"vessel.motion": {"period": 1, "rigid": {"translation": [0, 0, 1]}}}
+    giving = {"vessel.beam": {"bendingStiffness": 1e-3, "axialStiffness": 50, "foundation": 1e3}}
     scenes = (("sheath", {**soft, **moving}), ("cantilever", {"logStrains": True, "material": "nitinol"}),
-              ("catheter", {"logHub": True, **soft}))
+              ("catheter", {"logHub": True, **soft, **giving}))
     for k, (scene, changes) in enumerate(scenes):
         folder = run(live, tmp_path / str(k), ROOT / f"params/{scene}.json", maxSimulationSteps=1,
                      logFormat="npz", logOrientations=True, **changes)

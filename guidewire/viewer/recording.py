@@ -393,8 +393,21 @@ def read_recording(run: Run, walls: Sequence[Surface], frames: int, described: M
         facts_of(run.parameters, run.summary), radius_of(run.parameters),
         [*make_channels(units_of(run.parameters), numbers), *_bands(curve, log.time[kept])],
         name_walls(run.parameters, walls),
-        sheath_of(run.parameters, numbers), described=described, soft=soft_walls(run.parameters),
+        sheath_of(run.parameters, numbers), described=_with_beam(run, described, log.steps[kept], log.time[kept]),
+        soft=soft_walls(run.parameters),
     )
+
+
+def _with_beam(run: Run, described: Mapping[str, Any], steps: np.ndarray, times: np.ndarray) -> Mapping[str, Any]:
+    """Return what is described of a run, where a vessel that gives way as a beam moves as its centreline in the log."""
+    if "beam" not in (run.parameters.get("vessel") or {}):
+        return described
+    from guidewire.anatomy.motion import drawn_beam
+
+    centrelines = read_columns(run.folder, ["vesselCentreline"], steps)["vesselCentreline"]
+    cycle = drawn_beam(times, np.asarray(centrelines, dtype=float))
+    count = 1 + len(run.parameters.get("obstacles") or ())
+    return {**described, "motions": [[*own, cycle] for own in described.get("motions", [[]] * count)]}
 
 
 def _bands(curve: HubCurve | None, times: np.ndarray) -> list[Channel]:

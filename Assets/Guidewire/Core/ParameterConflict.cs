@@ -153,8 +153,11 @@ namespace Guidewire.Core
                 cycle => cycle.Period * (1.0 + 1e-9) < FewestStepsOfCycle * p.Method.TimeStep) == true),
                 "at most an eighth of each period in a wall's motion: longer steps would not see it move"),
             new Rule("vessel.motion", p => !p.Traits.HasBarriers
-                && Array.Exists(p.Scene.Walls, wall => wall.Motion != null),
+                && Array.Exists(p.Scene.Walls, wall => wall.Motion?.Cycles.Count > 0),
                 "solver direct: with the others walls stand still"),
+            new Rule("vessel.beam", p => !p.Traits.HasBarriers
+                && Array.Exists(p.Scene.Walls, wall => wall.Motion?.Beam != null),
+                "solver direct: with the others a vessel does not give way"),
             OfSheath(p => p.HasWalls, "a vessel"),
             OfSheath(p => p.IsClamped, "proximalEnd \"clamped\""),
             OfSheath(p => p.Drive.Steering != null || p.Drive.Kind == Drive.Displace || p.Drive.Kind == Drive.Hold,

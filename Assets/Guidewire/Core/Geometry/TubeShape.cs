@@ -81,6 +81,10 @@ namespace Guidewire.Core
             }
         }
 
+        /// <summary>The knots that were given, units.</summary>
+        public IReadOnlyList<Vector3d> Centreline =>
+            new ArraySegment<Vector3d>(_knots, FirstKnot, LastKnot + 1 - FirstKnot);
+
         /// <summary>The first knot that was given: 1 behind an open start, else 0.</summary>
         internal int FirstKnot { get; }
 

@@ -12,8 +12,10 @@ namespace Guidewire.Core
     /// centreline lies on that at rest up to the third order. The map is their mean with weights exp(-v^2/(2 s^2)), s
     /// the points' spacing. These depend on the place along a straight centreline alone, not on the distance from it.
     ///
-    /// A rigid motion is that of one point, exactly. The map of a moment depends on the time alone, but for the phases
-    /// of cycles whose period was changed during a run (<see cref="Serialize"/>).</remarks>
+    /// A rigid motion is that of one point, exactly. What gives way as a beam does so before it moves: psi is that of
+    /// the motion and then that of the beam (<see cref="BeamField"/>). The map of a moment depends on the time alone,
+    /// but for the beam and for the phases of cycles whose period was changed during a run (<see cref="Serialize"/>).
+    /// </remarks>
     public sealed class WallField
     {
         private const double Negligible = 36.0;    // exponent of a weight beside the largest
@@ -31,12 +33,14 @@ namespace Guidewire.Core
         private readonly double[] _weights;        // of the last query
         private readonly int[] _near;
         private readonly double[] _squares;
+        private readonly BeamField? _beam;
         private double _time = double.NaN;
 
         /// <summary>Where a wall is at time 0.</summary>
         public WallField(WallMotion motion)
         {
             _motion = motion;
+            _beam = motion.Beam == null ? null : new BeamField(motion.Beam);
             _values = new double[motion.Cycles.Count][];
             _since = new double[_values.Length];
             _phase = new double[_values.Length];
@@ -79,6 +83,32 @@ namespace Guidewire.Core
             Array.Copy(other._phase, _phase, _phase.Length);
             _time = double.NaN;
             SetTime(time);
+            _beam?.Follow(other._beam!);
+        }
+
+        /// <summary>Takes the displacements of the splines of its beam.</summary>
+        /// <returns>Whether they are others; never without a beam.</returns>
+        internal bool SetBeam(Vector3d[] q, double units) => _beam != null && _beam.Set(q, units);
+
+        /// <summary>Points of the centreline of its beam at rest, one more than there are pieces between its splines,
+        /// each with its displacement by the beam behind it, units; null: it has none.</summary>
+        public Vector3d[]? Centreline() => _beam?.Centreline();
+
+        /// <summary>The largest turn of a section of its beam, radians.</summary>
+        internal double LargestTurn => _beam?.LargestTurn ?? 0.0;
+
+        /// <summary>How what is at the place X of the wall at rest moves with the splines of its beam.</summary>
+        internal BeamWeight WeightAt(in Vector3d rest)
+        {
+            BeamWeight weight = _beam!.WeightAt(rest);
+            if (_motion.Cycles.Count == 0)
+            {
+                return weight;
+            }
+            TryCycle(_beam.Moved(rest), out Vector3d moved);
+            BeforeCycles(moved, out Matrix3 gradient, true);
+            return weight.After(new Matrix3(gradient.Solve(Vector3d.UnitX), gradient.Solve(Vector3d.UnitY),
+                gradient.Solve(Vector3d.UnitZ)));
         }
 
         /// <summary>The time, s.</summary>
@@ -129,8 +159,16 @@ namespace Guidewire.Core
 
         /// <summary>Finds where the place X of the wall at rest is now; false where Newton's method finds
         /// none.</summary>
-        internal bool TryMove(in Vector3d rest, out Vector3d moved)
+        internal bool TryMove(in Vector3d rest, out Vector3d moved) =>
+            TryCycle(_beam?.Moved(rest) ?? rest, out moved);
+
+        private bool TryCycle(in Vector3d rest, out Vector3d moved)
         {
+            if (_motion.Cycles.Count == 0)
+            {
+                moved = rest;
+                return true;
+            }
             int near = 0;
             double least = double.PositiveInfinity;
             for (int k = 0; k < _frames.Length; k++)
@@ -143,7 +181,7 @@ namespace Guidewire.Core
             double last = double.PositiveInfinity;
             for (int step = 0; step < MaxSteps; step++)
             {
-                Vector3d miss = AtRest(moved, out Matrix3 gradient) - rest;
+                Vector3d miss = BeforeCycles(moved, out Matrix3 gradient, true) - rest;
                 double size = miss.Length;
                 if (size <= tolerance || (size >= last && size < 1e3 * tolerance))
                 {
@@ -182,7 +220,10 @@ namespace Guidewire.Core
         }
 
         /// <summary>The turn of the wall at x, from rest.</summary>
-        internal Quaterniond TurnAt(in Vector3d x)
+        internal Quaterniond TurnAt(in Vector3d x) => _beam == null ? TurnOfCycles(x)
+            : TurnOfCycles(x) * _beam.TurnAt(BeforeCycles(x, out _, false));
+
+        private Quaterniond TurnOfCycles(in Vector3d x)
         {
             int count = Weigh(x);
             Quaterniond first = _frames[_near[0]].Turn;
@@ -223,6 +264,23 @@ namespace Guidewire.Core
 
         private Vector3d AtRest(in Vector3d x, out Matrix3 gradient, bool hasGradient)
         {
+            Vector3d before = BeforeCycles(x, out gradient, hasGradient);
+            if (_beam == null)
+            {
+                return before;
+            }
+            before = _beam.AtRest(before, out Matrix3 ofBeam);
+            gradient = ofBeam.Times(gradient);
+            return before;
+        }
+
+        private Vector3d BeforeCycles(in Vector3d x, out Matrix3 gradient, bool hasGradient)
+        {
+            if (_motion.Cycles.Count == 0)
+            {
+                gradient = Matrix3.Identity;
+                return x;
+            }
             if (_frames.Length == 1)
             {
                 gradient = _frames[0].Map;

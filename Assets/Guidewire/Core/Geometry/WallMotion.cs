@@ -54,6 +54,9 @@ namespace Guidewire.Core
         public IReadOnlyList<Vector3d[]> PointsOf(int cycle) =>
             Cycles[cycle].IsRigid ? Array.Empty<Vector3d[]>() : Branches;
 
+        /// <summary>The beam as which the vessel gives way before the cycles move it; null: it is rigid.</summary>
+        public WallBeam? Beam { get; set; }
+
         /// <summary>Why no wire can be simulated in it, in one phrase, or null: somewhere near these points of the
         /// wall, at some phase, the field folds (its Jacobian is not positive).</summary>
         /// <param name="points">Units, at rest.</param>

@@ -123,11 +123,14 @@ namespace Guidewire.Core
         /// <summary>Every term.</summary>
         public EnergyTerm[] All { get; }
 
-        /// <summary>Length of a gradient: n + 2, and n + 1 where there are twist angles.</summary>
-        public int VectorCount => (Supports.InnerCount == 0 ? 1 : 2) * (Rod.ElementCount + 1) + 1;
+        /// <summary>Length of a gradient: n + 2, n + 1 where there are twist angles, and what a vessel adds.</summary>
+        public int VectorCount => (Supports.InnerCount == 0 ? 1 : 2) * (Rod.ElementCount + 1) + 1 + VesselCount;
+
+        /// <summary>Splines of a vessel that gives way as a beam.</summary>
+        public int VesselCount => Contact?.VesselCount ?? 0;
 
         /// <summary>The same of the most elements that the rod may have.</summary>
-        public int VectorCapacity => (Supports.InnerCount == 0 ? 1 : 2) * (Rod.Capacity + 1) + 1;
+        public int VectorCapacity => (Supports.InnerCount == 0 ? 1 : 2) * (Rod.Capacity + 1) + 1 + VesselCount;
 
         /// <summary>Whether every term is a true energy, so that rest shapes are its minima.</summary>
         public bool HavePotential => Array.TrueForAll(All, term => term.HasPotential);
@@ -275,7 +278,10 @@ namespace Guidewire.Core
         /// <summary>The terms that act.</summary>
         public abstract EnergyTerm[] All { get; }
 
-        /// <summary>Gives the energy stored in the contacts' normal forces, J.</summary>
+        /// <summary>Splines of a vessel that gives way as a beam; 0 where it does not.</summary>
+        public virtual int VesselCount => 0;
+
+        /// <summary>Gives the energy stored in the contacts' normal forces and in the vessel, J.</summary>
         public abstract double StoredEnergy(RodShape shape);
 
         /// <summary>Energy stored in the elastic displacements of sticking contacts, J.</summary>

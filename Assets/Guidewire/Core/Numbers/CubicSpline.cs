@@ -56,6 +56,9 @@ namespace Guidewire.Core
             }
         }
 
+        /// <summary>The second derivatives at the rows.</summary>
+        internal double[][] SecondDerivatives => _second;
+
         /// <summary>Sets the values at a place; before the first and behind the last row of a natural spline those of
         /// the rows.</summary>
         public void Evaluate(double at, double[] values)

@@ -39,6 +39,9 @@ namespace Guidewire.Core
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public static Vector3d operator *(in Matrix3 a, in Vector3d v) => v.X * a.C1 + v.Y * a.C2 + v.Z * a.C3;
 
+        /// <summary>A B.</summary>
+        public Matrix3 Times(in Matrix3 b) => new Matrix3(this * b.C1, this * b.C2, this * b.C3);
+
         /// <summary>Makes a b^T.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public static Matrix3 Outer(in Vector3d a, in Vector3d b) => new Matrix3(b.X * a, b.Y * a, b.Z * a);
@@ -47,6 +50,26 @@ namespace Guidewire.Core
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public Vector3d TransposeTimes(in Vector3d v) =>
             new Vector3d(Vector3d.Dot(C1, v), Vector3d.Dot(C2, v), Vector3d.Dot(C3, v));
+
+        /// <summary>A^T B.</summary>
+        public Matrix3 TransposeTimes(in Matrix3 b) =>
+            new Matrix3(TransposeTimes(b.C1), TransposeTimes(b.C2), TransposeTimes(b.C3));
+
+        /// <summary>Entry of a row and a column, from 0.</summary>
+        public double this[int row, int column]
+        {
+            get
+            {
+                Vector3d c = column == 0 ? C1 : column == 1 ? C2 : C3;
+                return row == 0 ? c.X : row == 1 ? c.Y : c.Z;
+            }
+        }
+
+        /// <summary>The matrix of v -> S v + t x v.</summary>
+        public static Matrix3 Of(in Symmetric3 s, in Vector3d t = default) => new Matrix3(
+            s.Times(Vector3d.UnitX) + Vector3d.Cross(t, Vector3d.UnitX),
+            s.Times(Vector3d.UnitY) + Vector3d.Cross(t, Vector3d.UnitY),
+            s.Times(Vector3d.UnitZ) + Vector3d.Cross(t, Vector3d.UnitZ));
 
         /// <summary>The solution u of A u = b; A must not be singular.</summary>
         public Vector3d Solve(in Vector3d b)

@@ -31,6 +31,17 @@ namespace Guidewire.Core
         /// alone.</summary>
         public double[] Twist { get; }
 
+        /// <summary>Displacements of the splines of a vessel that gives way as a beam (<see cref="WallBeam"/>), m; none
+        /// where it does not.</summary>
+        public Vector3d[] Vessel { get; private set; } = Array.Empty<Vector3d>();
+
+        /// <summary>Their rates in the last step, m/s, by which the next one is predicted.</summary>
+        public Vector3d[] VesselRates { get; private set; } = Array.Empty<Vector3d>();
+
+        /// <summary>Over how long they are predicted at most: the length of that step, s. What gives way at once in a
+        /// short one does not go on so.</summary>
+        public double VesselInterval { get; set; }
+
         /// <summary>The frame to which the proximal end is clamped, if it is.</summary>
         public Quaterniond ProximalFrame { get; set; } = Quaterniond.Identity;
 
@@ -46,6 +57,19 @@ namespace Guidewire.Core
         /// <summary>The number of all angles.</summary>
         public int TwistCount => InnerCount * ElementCount;
 
+        /// <summary>Where the vessel's displacements are in a vector of the rod: behind those of nodes and
+        /// angles.</summary>
+        public int VesselStart => (InnerCount == 0 ? 1 : 2) * (ElementCount + 1) + 1;
+
+        /// <summary>Makes room for as many displacements of a vessel.</summary>
+        public void FitVessel(int count)
+        {
+            if (Vessel.Length != count)
+            {
+                (Vessel, VesselRates) = (new Vector3d[count], new Vector3d[count]);
+            }
+        }
+
         /// <summary>Takes over another shape.</summary>
         public void CopyFrom(RodShape other)
         {
@@ -55,9 +79,20 @@ namespace Guidewire.Core
             other.Twist.AsSpan(0, TwistCount).CopyTo(Twist);
             ProximalFrame = other.ProximalFrame;
             DistalFrame = other.DistalFrame;
+            TakeVessel(other);
         }
 
-        /// <summary>Writes this shape into a snapshot, or takes over one of the same n.</summary>
+        /// <summary>Takes over the displacements of another shape's vessel.</summary>
+        public void TakeVessel(RodShape other)
+        {
+            FitVessel(other.Vessel.Length);
+            other.Vessel.CopyTo(Vessel, 0);
+            other.VesselRates.CopyTo(VesselRates, 0);
+            VesselInterval = other.VesselInterval;
+        }
+
+        /// <summary>Writes this shape into a snapshot, or takes over one of the same n; without the vessel, of which
+        /// another one may have other splines.</summary>
         public void Serialize(Snapshot snapshot)
         {
             snapshot.Serialize(X, ElementCount + 1);
@@ -65,6 +100,17 @@ namespace Guidewire.Core
             snapshot.Serialize(Twist, TwistCount);
             ProximalFrame = snapshot.Serialize(ProximalFrame);
             DistalFrame = snapshot.Serialize(DistalFrame);
+        }
+
+        /// <summary>Writes or takes over the vessel's displacements; nothing where it has none.</summary>
+        public void SerializeVessel(Snapshot snapshot)
+        {
+            if (Vessel.Length > 0)
+            {
+                snapshot.Serialize(Vessel, Vessel.Length);
+                snapshot.Serialize(VesselRates, Vessel.Length);
+                VesselInterval = snapshot.Serialize(VesselInterval);
+            }
         }
 
         /// <summary>Makes this a straight rod along d3 of <paramref name="frame"/>.</summary>

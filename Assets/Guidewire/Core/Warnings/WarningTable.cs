@@ -159,6 +159,11 @@ namespace Guidewire.Core
             "without walls, near a balance of forces: the second derivative of the energy has a negative eigenvalue at "
             + "the end, and the wire has not moved by 1e-4 L along its mode");
 
+        /// <summary>A vessel whose sections turned beyond small angles.</summary>
+        public static readonly WarningKind VesselTurn = AfterReason("vesselTurn",
+            "the vessel's sections turned by up to *a:G2* rad: its beam is one of small angles, 0.3 rad at most",
+            "`vessel.beam`: the vessel's own stiffness is only roughly that of the larger turn");
+
         /// <summary>Energy that the scheme takes.</summary>
         public static readonly WarningKind EnergyLost = AfterReason("energyLost",
             "the integrator dissipated *p:0* % of the energy of an undamped motion; its estimated error reached "

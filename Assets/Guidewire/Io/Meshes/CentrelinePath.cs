@@ -81,6 +81,18 @@ namespace Guidewire.Io
         /// <summary>The target as it is called.</summary>
         public string TargetName { get; private set; } = "";
 
+        /// <summary>The points of the centreline from the inlet to one of them, units.</summary>
+        public Vector3d[] PointsTo(int point)
+        {
+            var points = new List<Vector3d>();
+            for (int k = point; k >= 0; k = _before[k])
+            {
+                points.Add(_anatomy.Points[k]);
+            }
+            points.Reverse();
+            return points.ToArray();
+        }
+
         /// <summary>The distance of each point of the centreline from the inlet along it, units.</summary>
         public double[] Distances { get; }
 

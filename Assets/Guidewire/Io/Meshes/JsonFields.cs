@@ -57,6 +57,17 @@ namespace Guidewire.Io
                 : throw Wrong(name, "a text in double quotes");
         }
 
+        /// <summary>A list of texts, or one text.</summary>
+        public List<string> Texts(string name)
+        {
+            var texts = new List<string>();
+            foreach (JToken item in _object[name] as JArray ?? new JArray(_object[name]!))
+            {
+                texts.Add(item.Type == JTokenType.String ? (string)item! : throw Wrong(name, "a list of texts"));
+            }
+            return texts;
+        }
+
         /// <summary>Whether a field holds a text.</summary>
         public bool IsText(string name) => _object[name]?.Type == JTokenType.String;
 

@@ -33,7 +33,8 @@ namespace Guidewire.Io
                 vessel.FrictionCoefficient = Friction(fields);
                 vessel.Softness = SoftnessReader.Read(fields);
                 SoftnessReader.ReadRegions(fields, vessel.Softness, values.Anatomy);
-                vessel.Motion = MotionReader.Read(fields, values, sourceOf, vessel, null, from.Mesh?.Motion);
+                vessel.Motion = BeamReader.Read(fields, values, vessel,
+                    MotionReader.Read(fields, values, sourceOf, vessel, null, from.Mesh?.Motion));
                 walls.Add(vessel);
                 values.Places = values.Path == null ? null
                     : new LumenPlaces(values.Path, values.Anatomy!.Ends, vessel);
@@ -48,6 +49,11 @@ namespace Guidewire.Io
                 obstacle.Softness = SoftnessReader.Read(fields);
                 obstacle.Motion = MotionReader.Read(fields, values, sourceOf, obstacle,
                     values.Vessel == null ? null : walls[0].Motion);
+                if (values.Vessel != null && walls[0].Motion?.Beam != null && obstacle.Motion != walls[0].Motion)
+                {
+                    throw fields.Wrong(MotionReader.Key, "\"vessel\" in a vessel with a beam: what is in it gives way "
+                        + "with it");
+                }
                 walls.Add(obstacle);
             }
             return walls.ToArray();
@@ -76,11 +82,11 @@ namespace Guidewire.Io
                         return Plane(fields, scene, placement);
                     case "tube":
                         Allow(fields, "knots", "radius", "openStart", "openEnd",
-                            "smooth");
+                            "smooth", BeamReader.Key);
                         return Tube(fields, scene, placement);
                     case "mesh":
                         Allow(fields, "file", "metresPerUnit", "openRims",
-                            "warp", "anatomy", SoftnessReader.Regions, Sha256);
+                            "warp", "anatomy", SoftnessReader.Regions, Sha256, BeamReader.Key);
                         return Mesh(fields, scene, placement, fileSource, from);
                     default:
                         throw fields.Wrong("shape", "one of \"plane\", \"tube\", \"mesh\"");

@@ -135,13 +135,18 @@ namespace Guidewire.Io
                 QuantitySwitch.Contacts, m => Moment.Of(m.Contacts?.Displacements))
                 .Json("contact.displacement", QuantityForm.Nonzero).InAnswer(StatePart.Motion),
             Number("vesselPhase", "1", "phase of the first cycle of a vessel that moves, 0 to 1", QuantitySwitch.Always,
-                m => m.Of(m.Simulation.FieldOf(0)?.PhaseOf(0))).Json("vesselPhase")
+                m => m.Simulation.FieldOf(0) is WallField field && field.Motion.Cycles.Count > 0
+                    ? m.Of(field.PhaseOf(0)) : default).Json("vesselPhase")
                 .InAnswer(StatePart.Instruments),
             Vectors("vesselDisplacement", QuantityPlace.Run, "units",
                 "displacement of a vessel that moves, at the wire's tip", QuantitySwitch.Always,
                 m => m.Simulation.FieldOf(0) is WallField field ? m.Of(m.State.Positions[m.State.ElementCount]
                     - field.AtRest(m.State.Positions[m.State.ElementCount])) : default)
                 .Json("vesselDisplacement").InAnswer(StatePart.Instruments),
+            new Quantity("vesselCentreline", QuantityPlace.Point, "x y z dx dy dz", "units",
+                "points of the centreline, at rest, of a vessel that gives way as a beam, and their displacements",
+                m => Moment.Of(m.Simulation.FieldOf(0)?.Centreline())) { Switch = QuantitySwitch.Always }
+                .Json("vesselCentreline"),
         };
 
         /// <summary>Those of a catheter, in the order of its array in an answer.</summary>

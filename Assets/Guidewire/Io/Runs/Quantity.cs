@@ -33,6 +33,9 @@ namespace Guidewire.Io
 
         /// <summary>Each wall of the scene.</summary>
         Wall,
+
+        /// <summary>Each point of a vessel's centreline that is told.</summary>
+        Point,
     }
 
     /// <summary>How a number stands in an array of a log.</summary>

@@ -32,7 +32,7 @@ namespace Guidewire.Core
         private readonly double[] _own;           // of the compliance of each from its hub on
         private readonly double[] _station;       // speeds of nodes
         private readonly double[] _force;         // of the hubs inside, N
-        private readonly RodVector[] _friction;
+        private RodVector[] _friction = Array.Empty<RodVector>();
         private double _tipGrows;                 // of the element at the last tip
         private double _borneRate;                // of what Q makes it longer by
         private double _borneLength;              // that, m
@@ -52,7 +52,6 @@ namespace Guidewire.Core
             _shared = _joints.CreatePieces();
             _own = new double[_joints.Count];
             _force = new double[_joints.Count];
-            _friction = new RodVector[_joints.Capacity + 2];
             _station = new double[_joints.Capacity + 1];
         }
 
@@ -86,7 +85,8 @@ namespace Guidewire.Core
             double force = OfLead(shape, terms, out double compliance)
                 + RateOf(shape, 0, _joints.ElementCount, compliance)
                 + (terms.CoaxialLoads?.EnergyRate(shape, _speeds, _station) ?? 0.0);
-            Array.Clear(_friction, 0, shape.ElementCount + 2);
+            _friction = _friction.Length > 0 ? _friction : new RodVector[terms.VectorCapacity];
+            Array.Clear(_friction, 0, terms.VectorCount);
             terms.Contact?.AddFriction(shape, _friction);
             for (int k = first + 1; k < first + ramp; k++)
             {

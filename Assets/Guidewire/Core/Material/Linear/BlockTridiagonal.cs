@@ -26,10 +26,13 @@ namespace Guidewire.Core
         private int _entryCount;            // of vectors, behind the placeholder
         private int _twistCount;            // elements with an angle that is unknown
         private readonly LowRank _columns;  // what couples elements that are not neighbours
+        private readonly int _vesselCount;  // of vectors of a vessel, at their end
 
         /// <summary>Makes a system for this rod between these supports.</summary>
-        public BlockTridiagonal(MaterialRod rod, RodSupports supports)
+        /// <param name="vesselCount">Splines of a vessel that gives way as a beam: the border of the matrix.</param>
+        public BlockTridiagonal(MaterialRod rod, RodSupports supports, int vesselCount = 0)
         {
+            _vesselCount = vesselCount;
             _rod = rod;
             _block = new RodBlock[rod.Capacity + 2];
             _weight = new double[rod.Capacity + 1];
@@ -42,7 +45,7 @@ namespace Guidewire.Core
                 _isPair = _coaxial.InnerCount > 1;
                 _twist = new TwistRow[_coaxial.InnerCount * (rod.Capacity + 1)];
             }
-            _columns = new LowRank(VectorCapacity);
+            _columns = new LowRank(VectorCapacity, 3 * vesselCount);
             Remesh();
         }
 
@@ -65,12 +68,15 @@ namespace Guidewire.Core
         /// <summary>Whether instruments inside have angles of their own.</summary>
         public bool HasTwistAngles => _twistCount > 0;
 
-        /// <summary>Number of vectors that a right-hand side must hold: one more than there are blocks, and as many as
-        /// blocks again where there are twist angles.</summary>
-        public int VectorCount => _count + 1 + _entryCount;
+        /// <summary>Number of vectors that a right-hand side must hold: one more than there are blocks, as many as
+        /// blocks again where there are twist angles, and those of a vessel.</summary>
+        public int VectorCount => VesselStart + _vesselCount;
+
+        /// <summary>Where those of a vessel begin.</summary>
+        public int VesselStart => _count + 1 + _entryCount;
 
         /// <summary>The same of the most elements that the rod may have.</summary>
-        public int VectorCapacity => (_coaxial == null ? 1 : 2) * (_rod.Capacity + 1) + 1;
+        public int VectorCapacity => (_coaxial == null ? 1 : 2) * (_rod.Capacity + 1) + 1 + _vesselCount;
 
         /// <summary>Assembles gradient and blocks of all terms, adds shift times the metric (l on theta, l/L^2 on x),
         /// and factorises; with it goes the right-hand side -gradient.</summary>
@@ -91,6 +97,7 @@ namespace Guidewire.Core
             gradient[0] = default;
             _block[0] = default;
             BeginTwists(gradient, y);
+            Array.Clear(gradient, VesselStart, _vesselCount);
             int negative = 0;
             int from = 0;
             while (from < _count && !(onlyPositive && negative > 0))
@@ -137,7 +144,9 @@ namespace Guidewire.Core
                 }
                 from = to;
             }
-            return _columns.Count == 0 ? negative : negative + _columns.Factorise(this);
+            SubtractVessel(gradient, y);
+            // A border can only add eigenvalues that are not positive.
+            return _columns.IsEmpty || (onlyPositive && negative > 0) ? negative : negative + _columns.Factorise(this);
         }
 
         private int Eliminate(RodVector[] y, int from, int to)
@@ -168,6 +177,7 @@ namespace Guidewire.Core
             }
             Array.Clear(y, 0, VectorCount);
             Subtract(gradient, y, 0, _count);
+            SubtractVessel(gradient, y);
             if (_coaxial != null)
             {
                 int twists = _coaxial.ActiveCount;
@@ -229,7 +239,7 @@ namespace Guidewire.Core
 
         private void Correct(RodVector[] y)
         {
-            if (_columns.Count > 0)
+            if (!_columns.IsEmpty)
             {
                 _columns.Correct(this, y);
             }
@@ -252,7 +262,8 @@ namespace Guidewire.Core
         /// <summary>Changes the sign of all negative pivots of the factorisation, L D L^T to L |D| L^T, and of what has
         /// been divided by them: what a <see cref="Factorise"/> has left for <see cref="Back"/> then leads downhill.
         /// </summary>
-        public void ReflectNegativePivots(RodVector[] y)
+        /// <returns>Whether it does: not where what borders the matrix is still not positive.</returns>
+        public bool ReflectNegativePivots(RodVector[] y)
         {
             for (int i = 0; i < _count; i++)
             {
@@ -265,10 +276,7 @@ namespace Guidewire.Core
                 Reflect(ref b.C22, ref v.T2);
                 Reflect(ref b.C33, ref v.T3);
             }
-            if (_columns.Count > 0)
-            {
-                _columns.Reflect(this);
-            }
+            return _columns.IsEmpty || _columns.Reflect(this);
         }
 
         private static void Reflect(ref double inverse, ref double value)
@@ -377,6 +385,15 @@ namespace Guidewire.Core
                     _twist[_count + j].Diagonal += shift * _weight[j]
                         + (j < _coaxial.ActiveCountOf(2) ? 0.0 : 1.0);
                 }
+            }
+        }
+
+        private void SubtractVessel(RodVector[] gradient, RodVector[] y)
+        {
+            for (int i = VesselStart; i < VectorCount; i++)
+            {
+                y[i] = default;
+                y[i].AddX(-gradient[i].X);
             }
         }
 

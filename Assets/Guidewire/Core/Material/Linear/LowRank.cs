@@ -9,7 +9,11 @@ namespace Guidewire.Core
     /// [A, U; U^T, -C^-1] have the same inertia (Haynsworth 1968): A + U C U^T has as many negative eigenvalues as A,
     /// and those of S that are positive, less the c that are positive. So A itself may be indefinite where contact
     /// holds
-    /// the rod. A column costs a forward and a backward elimination, from its first node on.</remarks>
+    /// the rod. A column costs a forward and a backward elimination, from its first node on.
+    ///
+    /// Unknowns besides those of the rod border it, as [A, B; B^T, D]: the displacements of a vessel. They are columns
+    /// of U too, with -D in the place of C^-1, a right-hand side and a solution of their own. Where the whole is
+    /// positive S is negative in them.</remarks>
     internal sealed class LowRank
     {
         private const double LeastLeft = 1e-3;     // of a part of the matrix
@@ -18,20 +22,61 @@ namespace Guidewire.Core
         private readonly StructList<Column> _columns = new StructList<Column>(16);
         private readonly IndefiniteMatrix _s = new IndefiniteMatrix();
         private readonly RodVector[] _work;
+        private readonly StructList<Coupling>[] _border;    // B by three columns
+        private readonly double[] _own;                      // D, by rows
         private RodVector4[][] _z = Array.Empty<RodVector4[]>();    // A^-1 U, four columns each, by node
         private double[] _right = Array.Empty<double>();
 
         /// <summary>For a rod whose vectors have at most so many entries.</summary>
-        public LowRank(int vectorCapacity)
+        /// <param name="borderCount">Unknowns besides those of the rod, three for each of a vessel's splines.</param>
+        public LowRank(int vectorCapacity, int borderCount = 0)
         {
             _work = new RodVector[vectorCapacity];
+            _border = new StructList<Coupling>[borderCount / 3];
+            for (int j = 0; j < _border.Length; j++)
+            {
+                _border[j] = new StructList<Coupling>(16);
+            }
+            _own = new double[borderCount * borderCount];
         }
 
-        /// <summary>How many columns there are.</summary>
+        /// <summary>How many columns of the rod there are.</summary>
         public int Count => _columns.Count;
 
-        /// <summary>Removes all columns.</summary>
-        public void Clear() => _columns.Clear();
+        /// <summary>Whether there is nothing besides the rod's own matrix.</summary>
+        public bool IsEmpty => _columns.Count == 0 && _border.Length == 0;
+
+        /// <summary>Removes all columns and what borders the matrix.</summary>
+        public void Clear()
+        {
+            _columns.Clear();
+            foreach (StructList<Coupling> border in _border)
+            {
+                border.Clear();
+            }
+            Array.Clear(_own, 0, _own.Length);
+        }
+
+        /// <summary>Adds a coupling of a node, and of the element after it, with spline j of the border.</summary>
+        /// <param name="second">Second derivative by the node's position (row) and the spline (column).</param>
+        /// <param name="turn">The same by the element's turn.</param>
+        public void AddCoupling(int node, int j, in Matrix3 second, in Matrix3 turn = default)
+        {
+            StructList<Coupling> border = _border[j];
+            for (int k = border.Count - 1; k >= Math.Max(0, border.Count - 2); k--)
+            {
+                if (border[k].Node == node)
+                {
+                    border[k].Second += second;
+                    border[k].Turn += turn;
+                    return;
+                }
+            }
+            border.Add(new Coupling { Node = node, Second = second, Turn = turn });
+        }
+
+        /// <summary>The second derivative by two unknowns of the border, of which the lower triangle counts.</summary>
+        public ref double Border(int row, int column) => ref _own[3 * _border.Length * row + column];
 
         /// <summary>Adds c u u^T with u on the nodes and orientations of two elements.</summary>
         /// <param name="element">The lower one.</param>
@@ -65,10 +110,10 @@ namespace Guidewire.Core
         }
 
         /// <summary>Factorises S for a matrix that is factorised.</summary>
-        /// <returns>By how many eigenvalues more the sum is not positive than the matrix.</returns>
+        /// <returns>By how many eigenvalues more the sum with its border is not positive than the matrix.</returns>
         public int Factorise(BlockTridiagonal system)
         {
-            int lowest = int.MaxValue;
+            int lowest = system.BlockCount;
             for (int k = 0; k < _columns.Count; k++)
             {
                 ref Column column = ref _columns[k];
@@ -76,7 +121,15 @@ namespace Guidewire.Core
                 system.Hold(column.Other, ref column.B, ref column.BEnd);
                 lowest = Math.Min(lowest, column.Element);
             }
-            int groups = (_columns.Count + Lanes - 1) / Lanes;
+            foreach (StructList<Coupling> border in _border)
+            {
+                for (int k = 0; k < border.Count; k++)
+                {
+                    border[k].Hold(system);
+                    lowest = Math.Min(lowest, border[k].Node);
+                }
+            }
+            int groups = (Total + Lanes - 1) / Lanes;
             Reserve(groups);
             for (int g = 0; g < groups; g++)
             {
@@ -91,11 +144,16 @@ namespace Guidewire.Core
         /// the matrix B, the negative ones take parts m of it away along the eigenvectors v of U^T B^-1 U: 1 - m
         /// becomes
         /// |1 - m| there.</summary>
-        public void Reflect(BlockTridiagonal system)
+        /// <returns>Whether the sum is positive: a border is left as it is.</returns>
+        public bool Reflect(BlockTridiagonal system)
         {
             if (Factorise(system) <= 0)
             {
-                return;
+                return true;
+            }
+            if (_border.Length > 0)
+            {
+                return false;
             }
             AssembleSum((_columns.Count + Lanes - 1) / Lanes);
             int[] positive = Indices(false);
@@ -148,6 +206,7 @@ namespace Guidewire.Core
                 }
             }
             _s.Factorise();
+            return true;
         }
 
         /// <summary>Turns y = A^-1 b into (A + U C U^T)^-1 b.</summary>
@@ -160,18 +219,45 @@ namespace Guidewire.Core
                     + RodVector.Dot(column.AEnd, y[column.Element + 1])
                     + RodVector.Dot(column.B, y[column.Other]) + RodVector.Dot(column.BEnd, y[column.Other + 1]);
             }
+            for (int j = 0; j < _border.Length; j++)
+            {
+                Vector3d sum = -y[system.VesselStart + j].X;
+                for (int k = 0; k < _border[j].Count; k++)
+                {
+                    ref Coupling coupling = ref _border[j][k];
+                    sum += coupling.Second.TransposeTimes(y[coupling.Node].X)
+                        + coupling.Turn.TransposeTimes(y[coupling.Node].T);
+                }
+                int at = _columns.Count + 3 * j;
+                (_right[at], _right[at + 1], _right[at + 2]) = (sum.X, sum.Y, sum.Z);
+            }
             _s.Solve(_right);
             Array.Clear(_work, 0, system.VectorCount);
             for (int k = 0; k < _columns.Count; k++)
             {
                 _columns[k].AddTo(_work, _right[k]);
             }
+            for (int j = 0; j < _border.Length; j++)
+            {
+                int at = _columns.Count + 3 * j;
+                var own = new Vector3d(_right[at], _right[at + 1], _right[at + 2]);
+                for (int k = 0; k < _border[j].Count; k++)
+                {
+                    ref Coupling coupling = ref _border[j][k];
+                    _work[coupling.Node].AddX(coupling.Second * own);
+                    _work[coupling.Node].AddT(coupling.Turn * own);
+                }
+                y[system.VesselStart + j] = default;
+                y[system.VesselStart + j].AddX(own);
+            }
             system.SolveWithout(_work);
-            for (int i = 0; i < system.VectorCount; i++)
+            for (int i = 0; i < system.VesselStart; i++)
             {
                 y[i].AddScaled(-1.0, _work[i]);
             }
         }
+
+        private int Total => _columns.Count + 3 * _border.Length;
 
         private int CountPositive()
         {
@@ -201,30 +287,70 @@ namespace Guidewire.Core
         {
             RodVector4[] z = _z[g];
             int first = Lanes * g;
-            int count = Math.Min(Lanes, _columns.Count - first);
+            int count = Math.Min(Lanes, Total - first);
             if (!system.HasTwistAngles)
             {
                 Array.Clear(z, lowest, system.BlockCount + 1 - lowest);
                 int from = int.MaxValue;
                 for (int lane = 0; lane < count; lane++)
                 {
-                    _columns[first + lane].AddTo(z, lane);
-                    from = Math.Min(from, _columns[first + lane].Element);
+                    from = Math.Min(from, AddColumn(first + lane, z, lane));
                 }
-                system.SolveWithout(z, from, lowest);
+                if (from < int.MaxValue)
+                {
+                    system.SolveWithout(z, from, lowest);
+                }
                 return;
             }
             Array.Clear(z, 0, z.Length);
             for (int lane = 0; lane < count; lane++)
             {
                 Array.Clear(_work, 0, system.VectorCount);
-                _columns[first + lane].AddTo(_work, 1.0);
+                AddColumn(first + lane);
                 system.SolveWithout(_work);
                 for (int i = 0; i < system.BlockCount; i++)
                 {
                     z[i].Add(InLane(_work[i], lane));
                 }
             }
+        }
+
+        // Column k, in a lane; its first node.
+        private int AddColumn(int k, RodVector4[] z, int lane)
+        {
+            if (k < _columns.Count)
+            {
+                _columns[k].AddTo(z, lane);
+                return _columns[k].Element;
+            }
+            int from = int.MaxValue;
+            StructList<Coupling> border = BorderOf(k, out int component);
+            for (int l = 0; l < border.Count; l++)
+            {
+                z[border[l].Node].Add(InLane(border[l].ColumnOf(component), lane));
+                from = Math.Min(from, border[l].Node);
+            }
+            return from;
+        }
+
+        private void AddColumn(int k)
+        {
+            if (k < _columns.Count)
+            {
+                _columns[k].AddTo(_work, 1.0);
+                return;
+            }
+            StructList<Coupling> border = BorderOf(k, out int component);
+            for (int l = 0; l < border.Count; l++)
+            {
+                _work[border[l].Node].AddScaled(1.0, border[l].ColumnOf(component));
+            }
+        }
+
+        private StructList<Coupling> BorderOf(int k, out int component)
+        {
+            component = (k - _columns.Count) % 3;
+            return _border[(k - _columns.Count) / 3];
         }
 
         private double Sum(int i, int j) => i > j ? _s[i, j] : _s[j, i];
@@ -246,7 +372,8 @@ namespace Guidewire.Core
         // S.
         private void AssembleSum(int groups)
         {
-            _s.Resize(_columns.Count);
+            _s.Resize(Total);
+            AssembleBorder();
             for (int k = 0; k < _columns.Count; k++)
             {
                 ref Column column = ref _columns[k];
@@ -265,8 +392,79 @@ namespace Guidewire.Core
             }
         }
 
+        private void AssembleBorder()
+        {
+            for (int j = 0; j < _border.Length; j++)
+            {
+                int row = _columns.Count + 3 * j;
+                for (int g = 0; g <= (row + 2) / Lanes; g++)
+                {
+                    Double4 x = default;
+                    Double4 y = default;
+                    Double4 z = default;
+                    for (int k = 0; k < _border[j].Count; k++)
+                    {
+                        ref Coupling coupling = ref _border[j][k];
+                        RodVector4 solved = _z[g][coupling.Node];
+                        x += RodVector4.Dot(coupling.ColumnOf(0), solved);
+                        y += RodVector4.Dot(coupling.ColumnOf(1), solved);
+                        z += RodVector4.Dot(coupling.ColumnOf(2), solved);
+                    }
+                    for (int l = Lanes * g; l < Lanes * g + Lanes; l++)
+                    {
+                        Set(row, l, x[l - Lanes * g]);
+                        Set(row + 1, l, y[l - Lanes * g]);
+                        Set(row + 2, l, z[l - Lanes * g]);
+                    }
+                }
+            }
+        }
+
+        private void Set(int row, int column, double value)
+        {
+            if (column <= row)
+            {
+                int own = column - _columns.Count;
+                _s[row, column] = own < 0 ? value : value - Border(row - _columns.Count, own);
+            }
+        }
+
         private static RodVector4 InLane(in RodVector v, int lane) => new RodVector4(lane == 0 ? v : default,
             lane == 1 ? v : default, lane == 2 ? v : default, lane == 3 ? v : default);
+
+        private struct Coupling
+        {
+            public int Node;
+            public Matrix3 Second;
+            public Matrix3 Turn;
+
+            public readonly RodVector ColumnOf(int c) => c == 0 ? new RodVector(Second.C1, Turn.C1)
+                : c == 1 ? new RodVector(Second.C2, Turn.C2) : new RodVector(Second.C3, Turn.C3);
+
+            public void Hold(BlockTridiagonal system)
+            {
+                if (Node == 0 || Node == system.BlockCount - 1)
+                {
+                    Second = new Matrix3(Held(system, Second.C1), Held(system, Second.C2), Held(system, Second.C3));
+                }
+            }
+
+            private readonly Vector3d Held(BlockTridiagonal system, in Vector3d column)
+            {
+                var node = default(RodVector);
+                node.AddX(column);
+                var other = default(RodVector);
+                if (Node == 0)
+                {
+                    system.Hold(0, ref node, ref other);
+                }
+                else
+                {
+                    system.Hold(Node - 1, ref other, ref node);
+                }
+                return node.X;
+            }
+        }
 
         // Scaled so that c is 1 or -1.
         private struct Column

@@ -35,7 +35,7 @@ namespace Guidewire.Core
                     MoveElement(shape, direction, scale, to, j, ref old, ref x);
                 }
             }
-            ApplyTwist(shape, direction, scale, to);
+            ApplyBeyond(shape, direction, scale, to);
             if (supports.Distal != DistalEnd.Free)
             {
                 Close(supports, to, old + Move(direction[n], scale));
@@ -93,17 +93,23 @@ namespace Guidewire.Core
                 }
             }
             to.X[n] = shape.X[n] + Move(direction[n], scale);
-            ApplyTwist(shape, direction, scale, to);
+            ApplyBeyond(shape, direction, scale, to);
         }
 
-        // The angles stand behind the n + 2 vectors of nodes and elements (BlockTridiagonal).
-        private static void ApplyTwist(RodShape shape, RodVector[] direction, double scale, RodShape to)
+        // The angles stand behind the n + 2 vectors of nodes and elements (BlockTridiagonal), and displacements of a
+        // vessel behind them.
+        private static void ApplyBeyond(RodShape shape, RodVector[] direction, double scale, RodShape to)
         {
             int n = shape.ElementCount;
             for (int j = 0; j < shape.TwistCount; j++)
             {
                 double turn = j < n ? direction[n + 2 + j].T3 : direction[2 + j].T2;
                 to.Twist[j] = shape.Twist[j] + scale * turn;
+            }
+            to.TakeVessel(shape);
+            for (int k = 0; k < to.Vessel.Length; k++)
+            {
+                to.Vessel[k] += scale * direction[shape.VesselStart + k].X;
             }
         }
 
@@ -174,6 +180,7 @@ namespace Guidewire.Core
             }
             for (int j = elementCount + 2; j < Math.Min(count, direction.Length); j++)
             {
+                shift = Math.Max(shift, direction[j].X.LengthSquared);
                 turn = Math.Max(turn, direction[j].T3 * direction[j].T3);
                 turn = Math.Max(turn, direction[j].T2 * direction[j].T2);
             }

@@ -94,6 +94,7 @@ namespace Guidewire.Core
             }
             for (int i = _rod.ElementCount + 1; i < count; i++)
             {
+                largest = Math.Max(largest, forces[i].X.Length);    // of a vessel
                 couples += Math.Abs(forces[i].T1) + Math.Abs(forces[i].T2) + Math.Abs(forces[i].T3);
             }
             return Math.Max(largest, couples / _totalLength);

@@ -11,6 +11,7 @@ namespace Guidewire.Core
         private const int MaxSlips = 60;
         private const double Rounding = 1e-9;     // of a step
         private const double MaxEnergyLoss = 0.1;  // of what was put in, by the scheme, before a warning
+        private const double LargestVesselTurn = 0.3;    // radians
         private const double MaxSpinLoss = 0.01;  // of a free wire's angular momentum, before a warning
 
         private readonly RodDynamics _dynamics;
@@ -31,6 +32,7 @@ namespace Guidewire.Core
         private readonly StepFailure _texts;
         private readonly RunExtremes _extremes;
         private double _hubWork;            // J
+        private double _vesselTurn;         // largest of the vessel's sections, radians
         private double _outside;            // energy of what is in a sheath before the rod, J
         private Vector3d _free;             // where the last node would be without forces at the step's end, m
         private Vector3d _heldFrom;         // of the spring, when the step began, m
@@ -306,7 +308,9 @@ namespace Guidewire.Core
                 _extremes.TakeHub(Terms.HubForce(Shape), _dynamics.Reactions.HubTorque, Time, Drag);
             }
             BarrierEnergy barrier = Terms.Walls()!.Barrier;
-            if (barrier.Lag != null || barrier.Fields.Carrier >= 0)
+            _vesselTurn = barrier.Fields.Beam == null ? 0.0
+                : Math.Max(_vesselTurn, barrier.Fields.Of[barrier.Fields.Carrier]!.LargestTurn);
+            if (barrier.Lag != null || barrier.Fields.IsTimed)
             {
                 _extremes.WallWork = _monitor!.Work - (barrier.Lag?.Dissipated ?? 0.0);
             }
@@ -369,6 +373,10 @@ namespace Guidewire.Core
             if (_dynamics.Newton.BalanceRounding.OfSupports > 0.0)
             {
                 warnings.Add(WarningTable.Rounding.With(_dynamics.Newton.BalanceRounding.OfSupports));
+            }
+            if (_vesselTurn > LargestVesselTurn)
+            {
+                warnings.Add(WarningTable.VesselTurn.With(_vesselTurn));
             }
             if (_rest.IsUnstable(Time))
             {
@@ -501,6 +509,7 @@ namespace Guidewire.Core
             snapshot.Serialize(ref _hasSlipped);
             snapshot.Serialize(ref _hubWork);
             snapshot.Serialize(ref _outside);
+            SerializeVessel(snapshot);
             Contacts?.Serialize(snapshot);
             if (!snapshot.IsWritten)
             {
@@ -515,6 +524,7 @@ namespace Guidewire.Core
             if (barrier?.Fields.Carrier >= 0)
             {
                 barrier.Fields.Serialize(snapshot, Time);
+                SerializeVessel(snapshot);
                 barrier.WallsMoved();
                 _monitor!.SerializeWork(snapshot);
             }
@@ -537,6 +547,15 @@ namespace Guidewire.Core
             _ends.SerializeWork(snapshot);
             _rest.Serialize(snapshot);
             _dynamics.SerializeHistory(snapshot, _timeStep);
+        }
+
+        private void SerializeVessel(Snapshot snapshot)
+        {
+            if (Shape.Vessel.Length > 0)
+            {
+                Shape.SerializeVessel(snapshot);
+                snapshot.Serialize(ref _vesselTurn);
+            }
         }
 
         private void FollowEnds() => _ends.Follow(Shape, HubTurn, _dynamics.DistalTurn);

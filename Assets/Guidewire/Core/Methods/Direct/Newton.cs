@@ -83,7 +83,7 @@ namespace Guidewire.Core
             _values = new double[terms.Length];
             BalanceRounding = new BalanceRounding(_rod, _supports, rodTerms.Mass,
                 _walls != null ? OfSpring : 1.0);
-            System = new BlockTridiagonal(_rod, _supports);
+            System = new BlockTridiagonal(_rod, _supports, rodTerms.VesselCount);
             Gradient = new RodVector[System.VectorCapacity];
             Direction = new RodVector[System.VectorCapacity];
             Trial = new RodShape(_rod.ElementCount, _supports.InnerCount, _rod.Capacity);
@@ -200,8 +200,9 @@ namespace Guidewire.Core
                     EnergySum.Anchor(_terms, shape);
                 }
                 Factorisations++;
+                _walls?.Barrier.DropTurning(!(last < MaxLinear));
                 bool isPlain = System.Factorise(_terms, shape, Gradient, Direction, Regularisation.Min,
-                    onlyPositive: !_hasFriction) == 0 || TryRegularised(shape);
+                    onlyPositive: !_hasFriction) == 0 || TryRegularised(shape) || TryWithoutTurning(shape);
                 if (isPlain)
                 {
                     System.Back(Direction);
@@ -236,7 +237,7 @@ namespace Guidewire.Core
                     // Where steps do not lower the force left, estimates may hold them back.
                     if (isLower && isPlain && scale == 1.0 && size < MaxLinear)
                     {
-                        _multipliers?.Estimate(Direction);
+                        _walls?.Barrier.Estimate(shape, Direction);
                     }
                     else
                     {
@@ -359,13 +360,25 @@ namespace Guidewire.Core
             return isPositive;
         }
 
+        // What turning sections of a vessel add need not be positive.
+        private bool TryWithoutTurning(RodShape shape)
+        {
+            if (_walls?.Barrier.HasTurning != true)
+            {
+                return false;
+            }
+            _walls.Barrier.DropTurning(true);
+            Factorisations++;
+            return System.Factorise(_terms, shape, Gradient, Direction, Regularisation.Min,
+                onlyPositive: !_hasFriction) == 0;
+        }
+
         // Where the second derivative has negative eigenvalues: by those with their signs changed, or with others. At
         // first these leave the terms of forces that may vanish out; then only those of walls.
         private void FindOtherDirection(RodShape shape, bool dropsGeometricStiffness)
         {
-            if (_hasFriction || _walls?.Self?.Touches == true)
+            if ((_hasFriction || _walls?.Self?.Touches == true) && System.ReflectNegativePivots(Direction))
             {
-                System.ReflectNegativePivots(Direction);
                 System.Back(Direction);
                 if (Size(out _) < MaxReflected)
                 {

@@ -79,7 +79,8 @@ namespace Guidewire.Io
                 + " \"file\", \"metresPerUnit\", \"openRims\", \"warp\", \"anatomy\"}",
                 "the wall around the wire; smooth (false) rounds a tube's corners; openRims names a point near each "
                 + "rim; warp, nine numbers from -1 to 1, moves the mesh by smooth waves;"
-                + " wallStiffness makes it soft (docs/soft-walls.md), motion lets it move (docs/moving-vessels.md)")
+                + " wallStiffness makes it soft (docs/soft-walls.md), motion lets it move and beam lets it give way as "
+                + "a whole (docs/moving-vessels.md)")
                 .OnlyWith(Takers.Walls),
             Key.Json("sheath", JTokenType.Object, "null or {\"exit\", \"direction\"}, each [x, y, z]",
                 "a straight, frictionless guide around the proximal part; needs a vessel, proximalEnd \"clamped\" and "

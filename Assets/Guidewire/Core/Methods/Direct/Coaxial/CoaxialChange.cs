@@ -82,6 +82,7 @@ namespace Guidewire.Core
         {
             int n = Joints.ElementCount;
             shape.ElementCount = n;
+            shape.TakeVessel(old);
             (shape.ProximalFrame, shape.DistalFrame) = (old.ProximalFrame, old.DistalFrame);
             Array.Clear(shape.Twist, 0, shape.TwistCount);
             for (int j = 0; j < n; j++)

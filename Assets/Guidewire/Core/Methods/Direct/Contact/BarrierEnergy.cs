@@ -53,6 +53,10 @@ namespace Guidewire.Core
         private bool _hasBending = true;
         private bool _isKnown;
         private double _value;
+        private readonly BeamWeight[] _weights;   // of the touched nodes, where a vessel gives way
+        private readonly Vector3d[] _displaced;   // of its splines after a step, m
+        private readonly RodVector[] _relative;   // a step of the touched nodes against it
+        private bool _hasWeights;
 
         /// <summary>Contact of a rod with walls.</summary>
         /// <param name="rod">The wire.</param>
@@ -88,6 +92,9 @@ namespace Guidewire.Core
             _sums = new ContactSums(n, walls.Length);
             _resultant = new Vector3d[walls.Length];
             _lag = WallLag.Of(_laws, rod);
+            _weights = new BeamWeight[Fields.Beam == null ? 0 : n + 1];
+            _relative = new RodVector[_weights.Length];
+            _displaced = new Vector3d[Fields.Beam?.Count ?? 0];
             Remesh();
             FollowElements(null);
         }
@@ -118,6 +125,12 @@ namespace Guidewire.Core
         /// <summary>Leaves out the part of elements' contacts that is proportional to their force.</summary>
         public override void DropGeometricStiffness(bool isOn) => _hasBending = !isOn;
 
+        /// <summary>Whether second derivatives have what the turning sections of a vessel add.</summary>
+        public bool HasTurning { get; private set; }
+
+        /// <summary>Leaves it out.</summary>
+        public void DropTurning(bool isOn) => HasTurning = Fields.Beam != null && !isOn;
+
         /// <summary>The walls, in units.</summary>
         public ContactShape[] Walls => _walls;
 
@@ -145,6 +158,15 @@ namespace Guidewire.Core
             }
         }
 
+        /// <summary>A vessel that gives way is where it is in this shape.</summary>
+        public void FollowVessel(RodShape shape)
+        {
+            if (Fields.SetBeam(shape.Vessel, _units))
+            {
+                WallsMoved();
+            }
+        }
+
         /// <summary>Walls are elsewhere than when the shape was evaluated last.</summary>
         public void WallsMoved()
         {
@@ -154,6 +176,39 @@ namespace Guidewire.Core
 
         /// <summary>Estimates of the contact forces in the shape last evaluated.</summary>
         public ContactMultipliers Multipliers => _sums.Multipliers;
+
+        /// <summary>Estimates these forces after a step from that shape.</summary>
+        public void Estimate(RodShape shape, RodVector[] direction)
+        {
+            if (Fields.Beam == null)
+            {
+                Multipliers.Estimate(direction);
+                return;
+            }
+            for (int j = 0; j < _displaced.Length; j++)
+            {
+                _displaced[j] = shape.Vessel[j] + direction[shape.VesselStart + j].X;
+            }
+            SetWeights();
+            for (int i = 0; i <= _rod.ElementCount; i++)
+            {
+                _relative[i] = direction[i];
+                _relative[i].AddX(_sums.IsTouched(i) ? -_weights[i].Move(_displaced, shape.Vessel) : Vector3d.Zero);
+            }
+            Multipliers.Estimate(_relative);
+        }
+
+        private void SetWeights()
+        {
+            for (int i = 0; i <= _rod.ElementCount && !_hasWeights; i++)
+            {
+                if (_sums.IsTouched(i))
+                {
+                    _weights[i] = Fields.Of[Fields.Carrier]!.WeightAt(_x[Fields.Carrier][i]);
+                }
+            }
+            _hasWeights = true;
+        }
 
         /// <summary>Whether a wall touches the wire in the shape last evaluated.</summary>
         public bool Touches => _sums.Contacts.Count > 0;
@@ -248,6 +303,22 @@ namespace Guidewire.Core
             // A shape is queried piece by piece from its first node on: each piece needs to compare its own nodes.
             Update(shape, from, Math.Min(to, _rod.ElementCount + 1));
             _sums.AddGradient(gradient, from, to, ref measured);
+            if (to > _rod.ElementCount && shape.Vessel.Length > 0)
+            {
+                SetWeights();
+                _sums.AddVesselGradient(gradient, shape.VesselStart, _weights);
+            }
+        }
+
+        /// <inheritdoc/>
+        public override void AddColumns(RodShape shape, LowRank columns)
+        {
+            if (shape.Vessel.Length > 0)
+            {
+                Update(shape);
+                SetWeights();
+                _sums.AddBorder(columns, _weights, _hasBending, HasTurning ? _units : 0.0);
+            }
         }
 
         /// <inheritdoc/>
@@ -270,7 +341,13 @@ namespace Guidewire.Core
                 double longest = _nodes.Move(shape, direction, tried * step, _now.InSpace, _next.InSpace);
                 if (Fields.Carrier >= 0)
                 {
+                    for (int j = 0; j < shape.Vessel.Length; j++)
+                    {
+                        _displaced[j] = shape.Vessel[j] + (tried * scale) * direction[shape.VesselStart + j].X;
+                    }
+                    Fields.SetBeam(_displaced, _units);
                     _next.Map(_rod.ElementCount + 1);
+                    Fields.SetBeam(shape.Vessel, _units);
                     longest = Math.Max(longest, _now.LongestTo(_next, _rod.ElementCount + 1));
                 }
                 double fraction = _motion.MaxStep(longest, _minGap);
@@ -413,6 +490,7 @@ namespace Guidewire.Core
         // Evaluates the shape, unless these of its nodes, without the last, are those of the last call.
         private void Update(RodShape shape, int from, int to)
         {
+            FollowVessel(shape);
             int inside = _nodes.Inside(shape);
             bool isSame = _isKnown && _near.IsCurrent && inside == _inside;
             for (int i = from; i < to && isSame; i++)
@@ -430,8 +508,14 @@ namespace Guidewire.Core
             SeesBehind = false;
             _isKnown = true;
             _value = 0.0;
+            _hasWeights = false;
             _near.Follow(_x);
             _minGap = _maxGap;
+            if (_now.IsFolded(_rod.ElementCount + 1))
+            {
+                (_value, _minGap) = (double.PositiveInfinity, 0.0);
+                return;
+            }
             for (int w = 0; w < _walls.Length; w++)
             {
                 _laws[w].ClearGaps(w, _nodeGap, _edgeGap);

@@ -17,6 +17,10 @@ namespace Guidewire.Core
         private readonly Vector3d[] _couplingTurn;      // the same, t of the part v -> t x v
         private readonly bool[] _isTouched;       // by node: whether these are not 0
         private int _elements;
+        private int _held = -1;                   // node that does not move
+        private Vector3d _heldGradient;           // of it, which a vessel that gives way feels all the same
+        private Symmetric3 _heldOwn;
+        private Symmetric3 _heldCoupling;
 
         /// <summary>Of a wire of this many elements that touches none of so many walls.</summary>
         public ContactSums(int elementCount, int wallCount)
@@ -66,6 +70,7 @@ namespace Guidewire.Core
                 _couplingTurn[j] = Vector3d.Zero;
             }
             Contacts.Clear();
+            (_held, _heldGradient, _heldOwn, _heldCoupling) = (-1, Vector3d.Zero, default, default);
         }
 
         /// <summary>Adds a contact of node i with wall w.</summary>
@@ -160,6 +165,10 @@ namespace Guidewire.Core
         /// </summary>
         public void Hold(int i)
         {
+            _held = i;
+            _heldGradient += _gradient[i];
+            _heldOwn += _own[i];
+            _heldCoupling += _coupling[i];
             _gradient[i] = Vector3d.Zero;
             _own[i] = default;
             _ownBending[i] = default;
@@ -214,6 +223,55 @@ namespace Guidewire.Core
                 }
             }
         }
+
+        /// <summary>Adds the derivatives by the splines of a vessel that gives way: each touched node is displaced
+        /// against it by dx - W dq.</summary>
+        /// <param name="weights">W by touched node.</param>
+        public void AddVesselGradient(RodVector[] gradient, int start, BeamWeight[] weights)
+        {
+            for (int i = 0; i <= _elements; i++)
+            {
+                if (_isTouched[i])
+                {
+                    weights[i].AddTo(gradient, start, -(i == _held ? _heldGradient : _gradient[i]));
+                }
+            }
+        }
+
+        /// <summary>Adds the second derivatives by these splines.</summary>
+        /// <param name="weights">W by touched node.</param>
+        /// <param name="units">Per metre; 0: without what turning sections add.</param>
+        public void AddBorder(LowRank columns, BeamWeight[] weights, bool hasBending, double units)
+        {
+            bool hasEstimates = Multipliers.HasEstimates;
+            for (int i = 0; i <= _elements; i++)
+            {
+                if (!_isTouched[i])
+                {
+                    continue;
+                }
+                bool isHeld = i == _held;
+                Symmetric3 own = isHeld ? _heldOwn : hasBending ? _own[i] + _ownBending[i] : _own[i];
+                own = hasEstimates ? own + Multipliers.OwnOf(i) : own;
+                weights[i].AddBorder(columns, isHeld ? -1 : i, weights[i], isHeld ? -1 : i, Matrix3.Of(own), false);
+                if (hasBending && units > 0.0)
+                {
+                    weights[i].AddTurning(columns, isHeld ? -1 : i, isHeld ? _heldGradient : _gradient[i], units);
+                }
+                if (i == _elements || !_isTouched[i + 1])
+                {
+                    continue;
+                }
+                Symmetric3 next = isHeld ? _heldCoupling : hasBending ? _coupling[i] + _couplingBending[i]
+                    : _coupling[i];
+                next = hasEstimates ? next + Multipliers.CouplingOf(i) : next;
+                weights[i + 1].AddBorder(columns, i + 1, weights[i], isHeld ? -1 : i,
+                    Matrix3.Of(next, isHeld || !hasBending ? Vector3d.Zero : _couplingTurn[i]), true);
+            }
+        }
+
+        /// <summary>Whether a contact acts on node i.</summary>
+        public bool IsTouched(int i) => _isTouched[i];
 
         private void Touch(int w, int j, double position, in Vector3d force, bool isNode, double displacement)
         {

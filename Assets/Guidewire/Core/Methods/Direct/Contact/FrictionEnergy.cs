@@ -32,6 +32,9 @@ namespace Guidewire.Core
 
         /// <summary>The element's frame at the step's start, turned with the wall since.</summary>
         public Quaterniond Frame;
+
+        /// <summary>How a vessel that gives way moves these nodes' places on it, by the index of the contact.</summary>
+        public int Order;
     }
 
     /// <summary>Coulomb friction on walls, elastic before it slips, as an energy over one step: at each contact the
@@ -50,8 +53,9 @@ namespace Guidewire.Core
     /// element with several edges of a wall share one anchor in proportion to their normal forces. The surface of
     /// element j at s slips by u = P ((1 - s) (x_j - x_j0) + s (x_j+1 - x_j+1,0) + r n x R_0 phi), P = 1 - n n^T, phi
     /// the turn of the element since the step's start along its axes there: an element that turns about its own axis
-    /// has friction too, and takes a couple. With u' = W theta, W = r [n] R_0 J^-1(phi), the second derivative leaves
-    /// out that of phi, of order |phi|.</remarks>
+    /// has friction too, and takes a couple. Where a vessel gives way the places on it go along: x_j0 moves by
+    /// V (q - q_0), with V and q_0 of the shape last given to <see cref="Lag"/>. With u' = W theta,
+    /// W = r [n] R_0 J^-1(phi), the second derivative leaves out that of phi, of order |phi|.</remarks>
     internal sealed class FrictionEnergy : EnergyTerm
     {
         private const double OfRadius = 1e-2;
@@ -64,6 +68,9 @@ namespace Guidewire.Core
         private readonly Vector3d[]?[] _onWall;   // of moving walls: where they saw the nodes at the start, units
         private readonly Quaterniond[]?[] _wallTurn;   // turn of these walls at the elements at the start
         private readonly double[] _coefficient;   // of elements with one of their own on all walls; else NaN
+        private readonly StructList<(BeamWeight First, BeamWeight Second)> _ofVessel =
+            new StructList<(BeamWeight, BeamWeight)>(1);
+        private readonly Vector3d[] _vessel;      // q_0, m
         private int _elements;
 
         /// <summary>Friction at the contacts of a barrier.</summary>
@@ -84,6 +91,7 @@ namespace Guidewire.Core
             Array.Fill(_coefficient, double.NaN);
             Anchors = new FrictionAnchors(barrier.Walls.Length, elementCount, capacity);
             _limitSum = new double[barrier.Walls.Length * (2 * capacity + 1)];
+            _vessel = new Vector3d[barrier.Fields.Beam?.Count ?? 0];
         }
 
         /// <summary>The wire has so many elements, at most those it was made for, and touches nothing.</summary>
@@ -93,6 +101,7 @@ namespace Guidewire.Core
             Array.Fill(_frames, Quaterniond.Identity);
             Array.Clear(_start, 0, _start.Length);
             _contacts.Clear();
+            _ofVessel.Clear();
             Array.Clear(_limitSum, 0, _limitSum.Length);
             Array.Fill(_coefficient, double.NaN);
         }
@@ -130,6 +139,7 @@ namespace Guidewire.Core
         {
             Array.Copy(shape.X, _start, _elements + 1);
             Array.Copy(shape.Q, _frames, _elements);
+            Array.Copy(shape.Vessel, _vessel, _vessel.Length);
             for (int w = 0; w < _onWall.Length; w++)
             {
                 if (_onWall[w] is Vector3d[] nodes)
@@ -177,6 +187,8 @@ namespace Guidewire.Core
                 _limitSum[_contacts[k].Index] = 0.0;
             }
             _contacts.Clear();
+            _ofVessel.Clear();
+            Array.Copy(shape.Vessel, _vessel, _vessel.Length);
             StructList<WallContact> contacts = _barrier.ContactsOf(shape);
             for (int k = 0; k < contacts.Count; k++)
             {
@@ -189,8 +201,15 @@ namespace Guidewire.Core
                     var sliding = new FrictionContact
                     {
                         Index = index, Element = contact.Element, Position = contact.Position,
-                        Normal = contact.Normal, Limit = limit,
+                        Normal = contact.Normal, Limit = limit, Order = _ofVessel.Count,
                     };
+                    if (_vessel.Length > 0)
+                    {
+                        Vector3d[] onWall = _onWall[contact.Wall]!;
+                        WallField field = _barrier.Fields.Of[contact.Wall]!;
+                        _ofVessel.Add((field.WeightAt(onWall[contact.Element]),
+                            field.WeightAt(onWall[contact.Element + 1])));
+                    }
                     Quaterniond turn = Carry(contact.Wall, contact.Element, ref sliding);
                     sliding.Start = turn == Quaterniond.Identity ? Anchors[index].Force
                         : Quaterniond.Rotate(turn, Anchors[index].Force);
@@ -272,6 +291,7 @@ namespace Guidewire.Core
                     AddForce(contact, Displacement(shape, contact, out Vector3d turn), turn, gradient);
                 }
             }
+            AddVesselGradient(shape, gradient, to);
         }
 
         /// <inheritdoc/>
@@ -287,16 +307,53 @@ namespace Guidewire.Core
                 }
                 Vector3d z = Displacement(shape, contact, out Vector3d turn);
                 AddForce(contact, z, turn, gradient);
-                double across = StiffnessAt(contact, z);
-                double along = across < contact.Stiffness ? 0.0 : across;
-                Symmetric3 h = new Symmetric3(across, 0.0, across, 0.0, 0.0, across)
-                    + Symmetric3.Outer(-across, contact.Normal);
-                if (along != across)
-                {
-                    h += Symmetric3.Outer(along - across, Vector3d.Normalize(z));
-                }
-                AddBlocks(contact, turn, h, ref blocks[j], ref blocks[j + 1]);
+                AddBlocks(contact, turn, SecondDerivative(contact, z), ref blocks[j], ref blocks[j + 1]);
             }
+            AddVesselGradient(shape, gradient, to);
+        }
+
+        /// <inheritdoc/>
+        public override void AddColumns(RodShape shape, LowRank columns)
+        {
+            for (int k = 0; k < _contacts.Count && shape.Vessel.Length > 0; k++)
+            {
+                ref FrictionContact contact = ref _contacts[k];
+                int j = contact.Element;
+                double s = contact.Position;
+                double r = 1.0 - s;
+                Matrix3 h = Matrix3.Of(SecondDerivative(contact, Displacement(shape, contact, out Vector3d turn)));
+                BeamWeight first = _ofVessel[contact.Order].First;
+                BeamWeight second = _ofVessel[contact.Order].Second;
+                first.AddBorder(columns, j, first, j, (r * r) * h, false);
+                second.AddBorder(columns, j + 1, second, j + 1, (s * s) * h, false);
+                second.AddBorder(columns, j + 1, first, j, (r * s) * h, true);
+                var turned = new Matrix3(Column(contact, turn, Vector3d.UnitX), Column(contact, turn, Vector3d.UnitY),
+                    Column(contact, turn, Vector3d.UnitZ));
+                Matrix3 couple = -1.0 * turned.TransposeTimes(h);
+                first.AddTurn(columns, j, r * couple);
+                second.AddTurn(columns, j, s * couple);
+            }
+        }
+
+        private void AddVesselGradient(RodShape shape, RodVector[] gradient, int to)
+        {
+            for (int k = 0; k < _contacts.Count && to > _elements && shape.Vessel.Length > 0; k++)
+            {
+                ref FrictionContact contact = ref _contacts[k];
+                Vector3d z = Displacement(shape, contact, out _);
+                Vector3d force = -StiffnessAt(contact, z) * z;
+                _ofVessel[contact.Order].First.AddTo(gradient, shape.VesselStart, (1.0 - contact.Position) * force);
+                _ofVessel[contact.Order].Second.AddTo(gradient, shape.VesselStart, contact.Position * force);
+            }
+        }
+
+        private static Symmetric3 SecondDerivative(in FrictionContact contact, in Vector3d z)
+        {
+            double across = StiffnessAt(contact, z);
+            double along = across < contact.Stiffness ? 0.0 : across;
+            Symmetric3 h = new Symmetric3(across, 0.0, across, 0.0, 0.0, across)
+                + Symmetric3.Outer(-across, contact.Normal);
+            return along == across ? h : h + Symmetric3.Outer(along - across, Vector3d.Normalize(z));
         }
 
         private double CoefficientOf(in WallContact contact)
@@ -333,6 +390,11 @@ namespace Guidewire.Core
             turn = RotationVector.Log(contact.Frame.Conjugate * shape.Q[j]);
             Vector3d move = (1.0 - s) * (shape.X[j] - contact.From.First) + s * (shape.X[j + 1] - contact.From.Second)
                 + _barrier.RadiusOf(j) * Vector3d.Cross(n, Quaterniond.Rotate(contact.Frame, turn));
+            if (_vessel.Length > 0)
+            {
+                move -= (1.0 - s) * _ofVessel[contact.Order].First.Move(shape.Vessel, _vessel)
+                    + s * _ofVessel[contact.Order].Second.Move(shape.Vessel, _vessel);
+            }
             return move - Vector3d.Dot(move, n) * n;
         }
 

@@ -22,8 +22,11 @@ namespace Guidewire.Core
                 Of[w] = walls[w].Motion == null ? null
                     : Shared[w] < w ? Of[Shared[w]] : new WallField(walls[w].Motion!);
                 Carrier = Carrier < 0 && Of[w] != null ? w : Carrier;
-                Key += Of[w] == null || Shared[w] < w ? "" : ", moving " + walls[w].Motion!.Cycles.Count;
+                Key += Of[w] == null || Shared[w] < w ? "" : ", moving " + walls[w].Motion!.Cycles.Count
+                    + (walls[w].Motion!.Beam == null ? "" : ", beam " + walls[w].Motion!.Beam!.Count);
+                IsTimed |= walls[w].Motion?.Cycles.Count > 0;
             }
+            Beam = Carrier < 0 ? null : walls[Carrier].Motion!.Beam;
         }
 
         /// <summary>By wall; null where it stands still.</summary>
@@ -34,6 +37,13 @@ namespace Guidewire.Core
 
         /// <summary>The first wall that moves, -1: none. A vessel is before its obstacles.</summary>
         public int Carrier { get; } = -1;
+
+        /// <summary>The beam as which the first wall that moves gives way, with all that move alike; null: it does not.
+        /// </summary>
+        public WallBeam? Beam { get; }
+
+        /// <summary>Whether any wall moves in time.</summary>
+        public bool IsTimed { get; }
 
         /// <summary>What a saved state has to agree in; empty where no wall moves.</summary>
         public string Key { get; } = "";
@@ -53,6 +63,11 @@ namespace Guidewire.Core
             }
             return moves;
         }
+
+        /// <summary>Takes the displacements of the beam's splines in a shape; one without has none to take.</summary>
+        /// <returns>Whether they are others.</returns>
+        public bool SetBeam(Vector3d[] q, double units) =>
+            Beam != null && q.Length > 0 && Of[Carrier]!.SetBeam(q, units);
 
         /// <summary>A point, units, as wall w sees it.</summary>
         public Vector3d AtRest(int w, in Vector3d x) => Of[w]?.AtRest(x) ?? x;
@@ -148,6 +163,17 @@ namespace Guidewire.Core
 
         /// <summary>G of wall w by node; null where it stands still.</summary>
         public Matrix3[]? GradientOf(int w) => _gradient[w];
+
+        /// <summary>Whether the wall is folded at any of the nodes, whose gradients are set.</summary>
+        public bool IsFolded(int count)
+        {
+            bool isFolded = false;
+            for (int i = 0; i < count && _fields.Beam != null; i++)
+            {
+                isFolded |= _gradient[_fields.Carrier]![i].C1 == Vector3d.Zero;
+            }
+            return isFolded;
+        }
 
         /// <summary>Sets the images of nodes that are set in space.</summary>
         public void Map(int count, bool hasGradient = false)

@@ -16,6 +16,7 @@ namespace Guidewire.Core
     internal sealed class WallTerms : ContactTerms
     {
         private readonly Func<string?>? _advice;
+        private readonly VesselEnergy? _vessel;
 
         /// <summary>Makes those of a rod.</summary>
         /// <param name="friction">Null where no wall has friction.</param>
@@ -49,6 +50,11 @@ namespace Guidewire.Core
             if (SelfFriction != null)
             {
                 all.Add(SelfFriction);
+            }
+            if (barrier.Fields.Beam is WallBeam beam)
+            {
+                _vessel = new VesselEnergy(beam);
+                all.Add(_vessel);
             }
             All = all.ToArray();
         }
@@ -115,6 +121,9 @@ namespace Guidewire.Core
         /// <summary>The spring; without effect where nothing holds node 0.</summary>
         public SupportSpring Spring { get; }
 
+        /// <inheritdoc/>
+        public override int VesselCount => Barrier.Fields.Beam?.Count ?? 0;
+
         /// <summary>Whether a support holds node 0.</summary>
         public bool HoldsStart { get; }
 
@@ -134,7 +143,8 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public override double StoredEnergy(RodShape shape) => Barrier.Stored(shape) + (Self?.Value(shape) ?? 0.0);
+        public override double StoredEnergy(RodShape shape) => Barrier.Stored(shape) + (Self?.Value(shape) ?? 0.0)
+            + (_vessel?.Value(shape) ?? 0.0);
 
         /// <inheritdoc/>
         public override Vector3d SupportForce(RodShape shape) => HoldsStart ? Spring.Force(shape) : Vector3d.Zero;

@@ -30,6 +30,9 @@ namespace Guidewire.Core
         private readonly ViscousRelaxation? _creep;   // where a couple at the tip has no potential
         private readonly WallStage? _walls;       // solves where there are walls
         private double _loads;                    // sum of their magnitudes in the stage, N
+        private readonly Vector3d[] _vesselBegan;      // displacements of a vessel's splines, m
+        private double _began;                    // s
+        private double _length;                   // s
         private bool _hasPast;
         private bool _isEuler;                    // the stage is a step of implicit Euler
 
@@ -46,6 +49,7 @@ namespace Guidewire.Core
             _shape = motion.Shape;
             _before = new RodShape(_shape.ElementCount, _shape.InnerCount, terms.Rod.Capacity);
             _startPositions = new Vector3d[_shape.X.Length];
+            _vesselBegan = new Vector3d[_shape.Vessel.Length];
             _velocityHistory = new Vector3d[_shape.X.Length];
             _predicted = new Quaterniond[_shape.Q.Length];
             double massDamping = terms.Rod.MassDamping;
@@ -123,6 +127,8 @@ namespace Guidewire.Core
         public void BeginStep(double time, double dt)
         {
             Array.Copy(_shape.X, _startPositions, _shape.ElementCount + 1);
+            _shape.Vessel.CopyTo(_vesselBegan, 0);
+            (_began, _length) = (time, dt);
             _inertia.BeginStep(_shape, dt);
             BeginDamping(time + SameTime * dt);
             _terms.Bending.BeginSlide(time);
@@ -182,6 +188,11 @@ namespace Guidewire.Core
             {
                 term.EndStep(_shape);
             }
+            for (int j = 0; j < _vesselBegan.Length; j++)
+            {
+                _shape.VesselRates[j] = (1.0 / _length) * (_shape.Vessel[j] - _vesselBegan[j]);
+            }
+            _shape.VesselInterval = _length;
         }
 
         /// <summary>Forgets the stages before.</summary>
@@ -205,7 +216,7 @@ namespace Guidewire.Core
             _inertia.BeginStage();
             _walls?.TakePlaces(_shape);
             _terms.SetTime(_schedule, before);
-            Surrounding = _walls?.Carry(_shape, _isEuler ? h : 0.0);
+            Surrounding = _walls?.Carry(_shape, _isEuler ? h : 0.0, _vesselBegan, time - _began);
             _terms.Walls()?.Barrier.BeginStage(_inertia.FreePositions, _velocityHistory, h, Surrounding);
             Damping?.SetSurrounding(Surrounding);
             _loads = _schedule.Loads.SumAt(before, _terms.Mass.Total) + _terms.Followers.Force.Force.Length;

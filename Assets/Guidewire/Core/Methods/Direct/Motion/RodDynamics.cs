@@ -34,6 +34,7 @@ namespace Guidewire.Core
         {
             _terms = terms;
             _schedule = schedule;
+            shape.FitVessel(terms.VesselCount);
             _motion = new RodMotion(shape);
             _stepper = scheme == null ? new Bdf2Stepper(terms, schedule, _motion)
                 : (ImplicitStepper)new RungeKuttaStepper(scheme, terms, schedule, _motion);

@@ -45,6 +45,7 @@ namespace Guidewire.Core
         public void Serialize(Snapshot snapshot)
         {
             Shape.Serialize(snapshot);
+            Shape.SerializeVessel(snapshot);
             snapshot.Serialize(Velocities, Shape.ElementCount + 1);
             snapshot.Serialize(Spins, Shape.ElementCount);
             snapshot.Serialize(TwistRates, Shape.TwistCount);

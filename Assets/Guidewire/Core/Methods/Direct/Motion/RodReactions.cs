@@ -34,7 +34,7 @@ namespace Guidewire.Core
             _rounding = rounding;
             _damping = damping;
             _gradient = new RodVector[terms.VectorCapacity];
-            _loads = new RodVector[terms.Rod.Capacity + 2];
+            _loads = new RodVector[terms.VectorCapacity];
         }
 
         /// <summary>Whether forces are kept; they cost a gradient a stage.</summary>

@@ -30,10 +30,10 @@ namespace Guidewire.Core
         }
 
         /// <summary>Takes where the wire is; the walls are where they were then.</summary>
-        /// <returns>Whether any wall moves.</returns>
+        /// <returns>Whether any wall moves, or is predicted to.</returns>
         public bool TakePlaces(RodShape shape)
         {
-            _isTaken = _barrier.Fields.Carrier >= 0;
+            _isTaken = _barrier.Fields.IsTimed || Array.Exists(shape.VesselRates, rate => rate != Vector3d.Zero);
             _count = shape.ElementCount + 1;
             for (int w = 0; w < _rest.Length && _isTaken; w++)
             {
@@ -80,7 +80,7 @@ namespace Guidewire.Core
         /// it.</param>
         public Vector3d[]? Around(double since)
         {
-            if (!_isTaken || !IsAround(_barrier.Fields.Carrier))
+            if (!_isTaken || !_barrier.Fields.IsTimed || !IsAround(_barrier.Fields.Carrier))
             {
                 return null;    // the blood does not go with an obstacle
             }

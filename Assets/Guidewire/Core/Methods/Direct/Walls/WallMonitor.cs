@@ -45,7 +45,7 @@ namespace Guidewire.Core
             _forces = new Vector3d[barrier.Fields.Carrier >= 0 ? n + 1 : 0];
             _ways = new Vector3d[_forces.Length];
             _clearance = new double[n];
-            _gradient = new RodVector[n + 2];
+            _gradient = new RodVector[2 * (n + 1) + 1 + walls.VesselCount];
             _passages = new PassageCount(this, n);
             _strands = walls.Self == null ? null : new StrandMonitor(rod.Length, rod.Radius, rod.ElementCount, true);
             Remesh();

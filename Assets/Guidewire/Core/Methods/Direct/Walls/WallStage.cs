@@ -46,8 +46,28 @@ namespace Guidewire.Core
         /// <summary>See <see cref="WallCarrier.Around"/>.</summary>
         public Vector3d[]? Around() => _carrier.Around(0.0);
 
-        /// <summary>Carries the wire along with walls that have moved; see <see cref="WallCarrier.Carry"/>.</summary>
-        public Vector3d[]? Carry(RodShape shape, double since) => _carrier.Carry(shape, since);
+        /// <summary>Carries the wire along with walls that have moved; see <see cref="WallCarrier.Carry"/>. A vessel
+        /// that gives way goes on as in the last step, unless what holds the wire would then touch it.</summary>
+        /// <param name="began">Displacements of its splines when the step began, m.</param>
+        /// <param name="elapsed">Since then, s.</param>
+        public Vector3d[]? Carry(RodShape shape, double since, Vector3d[] began, double elapsed)
+        {
+            BarrierEnergy barrier = _terms.Walls()!.Barrier;
+            _start.CopyFrom(shape);
+            for (int j = 0; j < began.Length; j++)
+            {
+                shape.Vessel[j] = began[j] + Math.Min(elapsed, shape.VesselInterval) * shape.VesselRates[j];
+            }
+            barrier.FollowVessel(shape);
+            Vector3d[]? around = _carrier.Carry(shape, since);
+            if (began.Length > 0 && !(barrier.LeastGap(shape) > 0.0))
+            {
+                shape.CopyFrom(_start);
+                barrier.FollowVessel(shape);
+                around = _carrier.Carry(shape, since);
+            }
+            return around;
+        }
 
         /// <summary>The rod has other elements.</summary>
         public void Remesh()
@@ -156,7 +176,7 @@ namespace Guidewire.Core
             WallTerms walls = dynamics.Terms.Walls()!;
             double start = dynamics.Time;
             double end = start + dt;
-            bool isCarried = walls.Barrier.Fields.Carrier >= 0 && !walls.HoldsStart;
+            bool isCarried = walls.Barrier.Fields.IsTimed && !walls.HoldsStart;
             double move = isCarried ? 0.0 : Vector3d.Distance(
                 schedule.Hub.PositionAt(end) - walls.Spring.LagOf(dynamics.Shape), dynamics.Shape.X[0]);
             move = Math.Max(move, schedule.InnerMove(dt));

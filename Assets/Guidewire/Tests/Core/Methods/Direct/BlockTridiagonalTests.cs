@@ -135,7 +135,7 @@ namespace Guidewire.Core.Tests
             var blocks = new RodBlock[n + 2];
             foreach (EnergyTerm term in terms)
             {
-                term.AddBlocks(shape, blocks, new RodVector[n + 2], 0, n + 1);
+                term.AddBlocks(shape, blocks, new RodVector[n + 2 + shape.Vessel.Length], 0, n + 1);
             }
             double[,] h = DenseMatrix.From(blocks, n + 1);
             for (int i = 0; i < 6 * (n + 1); i++)

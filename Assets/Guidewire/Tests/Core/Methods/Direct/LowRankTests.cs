@@ -1,4 +1,5 @@
 using System;
+using System.Linq;
 using NUnit.Framework;
 
 namespace Guidewire.Core.Tests
@@ -9,24 +10,29 @@ namespace Guidewire.Core.Tests
         private const int N = 11;
 
         // Signs of c: both; more columns than are eliminated at once; the system alone is indefinite at a shift of 0.
-        [TestCase(DistalEnd.Free, 50.0, 1, 1.0, 1)]
-        [TestCase(DistalEnd.Sliding, 50.0, 3, 1e3, 2)]
-        [TestCase(DistalEnd.Clamped, 50.0, 9, 30.0, 3)]
-        [TestCase(DistalEnd.Free, 0.0, 9, 30.0, 4)]
-        [TestCase(DistalEnd.Free, 0.0, 17, 1e4, 5)]
-        [TestCase(DistalEnd.Sliding, 0.0, 6, 1e-3, 6)]
+        [TestCase(DistalEnd.Free, 50.0, 1, 1.0, 1, 0)]
+        [TestCase(DistalEnd.Sliding, 50.0, 3, 1e3, 2, 0)]
+        [TestCase(DistalEnd.Clamped, 50.0, 9, 30.0, 3, 0)]
+        [TestCase(DistalEnd.Free, 0.0, 9, 30.0, 4, 0)]
+        [TestCase(DistalEnd.Free, 0.0, 17, 1e4, 5, 0)]
+        [TestCase(DistalEnd.Sliding, 0.0, 6, 1e-3, 6, 0)]
+        [TestCase(DistalEnd.Free, 50.0, 0, 1.0, 7, 1)]
+        [TestCase(DistalEnd.Sliding, 50.0, 3, 1e3, 8, 3)]
+        [TestCase(DistalEnd.Clamped, 0.0, 9, 30.0, 9, 5)]
+        [TestCase(DistalEnd.Free, 0.0, 2, 30.0, 10, 4)]
         public void SolutionAndInertia_AreTheDenseOnes(DistalEnd distal, double shift, int count, double stiffness,
-            int seed)
+            int seed, int border)
         {
             BlockTridiagonal system = Create(distal, count, stiffness, seed, out Coupling coupling,
-                out EnergyTerm[] terms, out RodShape shape, out RodSupports supports);
+                out EnergyTerm[] terms, out RodShape shape, out RodSupports supports, border);
             var gradient = new RodVector[system.VectorCount];
             var y = new RodVector[system.VectorCount];
             int negative = system.Factorise(terms, shape, gradient, y, shift);
             system.Back(y);
 
-            double[,] basis = BlockTridiagonalTests.FreeDirections(supports, N);
-            double[,] h = BlockTridiagonalTests.Assembled(terms, shape, coupling.Rod, shift, N);
+            double[,] basis = Bordered(BlockTridiagonalTests.FreeDirections(supports, N), 3 * border, 1.0);
+            double[,] h = Bordered(BlockTridiagonalTests.Assembled(terms, shape, coupling.Rod, shift, N), 3 * border,
+                0.0);
             coupling.AddTo(h);
             double[,] reduced = BlockTridiagonalTests.Congruent(h, basis);
             int expected = Array.FindAll(DenseMatrix.Eigenvalues(reduced), value => value < 0.0).Length;
@@ -89,9 +95,8 @@ namespace Guidewire.Core.Tests
 
         private static void AssertSolves(double[,] h, double[,] basis, RodVector[] y, RodVector[] gradient)
         {
-            double[] full = DenseMatrix.From(y, N + 1);
-            double[] product = BlockTridiagonalTests.Project(basis, Times(h, full), 1.0);
-            double[] expected = BlockTridiagonalTests.Project(basis, DenseMatrix.From(gradient, N + 1), -1.0);
+            double[] product = BlockTridiagonalTests.Project(basis, Times(h, Whole(y)), 1.0);
+            double[] expected = BlockTridiagonalTests.Project(basis, Whole(gradient), -1.0);
             double scale = 0.0;
             foreach (double value in expected)
             {
@@ -101,6 +106,29 @@ namespace Guidewire.Core.Tests
             {
                 Assert.That(product[i], Is.EqualTo(expected[i]).Within(1e-9 * scale));
             }
+        }
+
+        // With what borders it.
+        private static double[] Whole(RodVector[] v) => DenseMatrix.From(v, N + 1).Concat(v.Skip(N + 2)
+            .SelectMany(own => new[] { own.X1, own.X2, own.X3 })).ToArray();
+
+        private static double[,] Bordered(double[,] matrix, int count, double diagonal)
+        {
+            int rows = matrix.GetLength(0);
+            int columns = matrix.GetLength(1);
+            var bordered = new double[rows + count, columns + count];
+            for (int i = 0; i < rows; i++)
+            {
+                for (int j = 0; j < columns; j++)
+                {
+                    bordered[i, j] = matrix[i, j];
+                }
+            }
+            for (int k = 0; k < count; k++)
+            {
+                bordered[rows + k, columns + k] = diagonal;
+            }
+            return bordered;
         }
 
         private static double[] Times(double[,] h, double[] v)
@@ -117,17 +145,19 @@ namespace Guidewire.Core.Tests
         }
 
         private static BlockTridiagonal Create(DistalEnd distal, int count, double stiffness, int seed,
-            out Coupling coupling, out EnergyTerm[] terms, out RodShape shape, out RodSupports supports)
+            out Coupling coupling, out EnergyTerm[] terms, out RodShape shape, out RodSupports supports,
+            int border = 0)
         {
             MaterialRod rod = MaterialRod.Round(N, 1.0, 0.1, 300.0, 130.0, 2.0);
             Vector3d axis = Vector3d.Normalize(new Vector3d(1.0, 2.0, -1.0));
             supports = new RodSupports { Distal = distal, SlidingAxis = axis };
             var rodTerms = new RodTerms(rod, supports);
             rodTerms.Loads.Set(new Vector3d(0.1, 0.2, 0.3), new Vector3d(0.0, 0.1, 0.0));
-            coupling = new Coupling(rod, count, stiffness, seed);
+            coupling = new Coupling(rod, count, stiffness, seed, border);
             terms = rodTerms.With(coupling);
             shape = Rods.Random(rod, 1.2, 0.1, 11 + seed);
-            return new BlockTridiagonal(rod, supports);
+            shape.FitVessel(border);
+            return new BlockTridiagonal(rod, supports, border);
         }
 
         private sealed class Coupling : EnergyTerm
@@ -135,9 +165,12 @@ namespace Guidewire.Core.Tests
             private readonly int[] _elements;
             private readonly RodVector[] _vectors;
             private readonly double[] _stiffness;
+            private readonly int _border;
+            private readonly int _seed;
 
-            public Coupling(MaterialRod rod, int count, double stiffness, int seed)
+            public Coupling(MaterialRod rod, int count, double stiffness, int seed, int border)
             {
+                (_border, _seed) = (border, seed);
                 Rod = rod;
                 var random = new System.Random(seed);
                 _elements = new int[2 * count];
@@ -163,6 +196,10 @@ namespace Guidewire.Core.Tests
             public override void AddGradient(RodShape shape, RodVector[] gradient, int from, int to,
                 ref GradientMeasures measured)
             {
+                for (int j = 0; j < _border && to > N; j++)
+                {
+                    gradient[shape.VesselStart + j].AddX(new Vector3d(0.3, -0.2, 0.1 * j));
+                }
             }
 
             public override void AddColumns(RodShape shape, LowRank columns)
@@ -171,6 +208,32 @@ namespace Guidewire.Core.Tests
                 {
                     columns.Add(_elements[2 * k], _elements[2 * k + 1], _vectors[4 * k], _vectors[4 * k + 1],
                         _vectors[4 * k + 2], _vectors[4 * k + 3], _stiffness[k]);
+                }
+                ForBorder((row, column, value) => columns.Border(row, column) += value, columns.AddCoupling);
+            }
+
+            private delegate void Take(int node, int j, in Matrix3 second, in Matrix3 turn);
+
+            // Nodes and elements, both ends among them, against three unknowns each, not definite for odd seeds.
+            private void ForBorder(Action<int, int, double> own, Take coupling)
+            {
+                var random = new System.Random(_seed);
+                for (int j = 0; j < _border; j++)
+                {
+                    for (int k = 0; k < 5; k++)
+                    {
+                        int node = k == 0 ? 0 : k == 1 ? N : random.Next(N);
+                        coupling(node, j, new Matrix3(Any(random), Any(random), Any(random)), node == N ? default
+                            : new Matrix3(Any(random), Any(random), Any(random)));
+                    }
+                    for (int a = 0; a < 3; a++)
+                    {
+                        for (int column = 0; column <= 3 * j + a; column++)
+                        {
+                            own(3 * j + a, column, random.NextDouble() - 0.5
+                                + (column == 3 * j + a && _seed % 2 == 0 ? 300.0 : 0.0));
+                        }
+                    }
                 }
             }
 
@@ -192,6 +255,23 @@ namespace Guidewire.Core.Tests
                         }
                     }
                 }
+                int start = 6 * (N + 1);
+                ForBorder((row, column, value) =>
+                {
+                    h[start + row, start + column] = value;
+                    h[start + column, start + row] = value;
+                }, (int node, int j, in Matrix3 second, in Matrix3 turn) =>
+                {
+                    for (int a = 0; a < 6; a++)
+                    {
+                        for (int b = 0; b < 3; b++)
+                        {
+                            double value = a < 3 ? second[a, b] : turn[a - 3, b];
+                            h[6 * node + a, start + 3 * j + b] += value;
+                            h[start + 3 * j + b, 6 * node + a] += value;
+                        }
+                    }
+                });
             }
 
             private static Vector3d Any(System.Random random) => new Vector3d(random.NextDouble() - 0.5,
