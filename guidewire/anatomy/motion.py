@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import base64
 import csv
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -313,8 +313,8 @@ def given_walls(parameters: Mapping[str, Any]) -> list[int]:
 
 
 def drawn_beam(times: np.ndarray, centrelines: np.ndarray, count: int = 32) -> dict[str, Any]:
-    """Return what the page draws of a vessel that gave way during a run: a cycle as of `Session.describe`, which lasts as
-    long as the run. times : (k,) s; centrelines : (k, m, 6), as logs have them."""
+    """Return what the page draws of a vessel that gave way during a run: a cycle as of `Session.describe`, which lasts
+    as long as the run. times : (k,) s; centrelines : (k, m, 6), as logs have them."""
     rest = centrelines[0, :, :3]
     stations = np.r_[0.0, np.cumsum(np.linalg.norm(np.diff(rest, axis=0), axis=1))]
     fine = np.linspace(0.0, stations[-1], _PER_PIECE * (len(rest) - 1) + 1)
