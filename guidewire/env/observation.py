@@ -45,7 +45,8 @@ class Observation:
         centreline, units (1,). Of the catheters "overlap": length beyond its tip of what is inside, and over which that
         is inside, units (k - 1, 2). Of the wire "target": from the tip to it (3,); "ahead": unit vector (3,) from the
         tip to the point of the centreline that is `lookahead` nearer to the target, in the frame d1, d2, d3 of the last
-        element. "beat": cosine and sine of the phase of a vessel that moves (2,), 0 of others. "action": the last one, as fractions (2 k,); "image": what `image` gives.
+        element. "beat": cosine and sine of the phase of a vessel that moves (2,), 0 of others. "action": the last
+        one, as fractions (2 k,); "image": what `image` gives.
     points : how many.
     spacing : elements between two of them.
     screen : (2, 3), directions of the picture's axes to the right and upwards; the projection is parallel.

@@ -33,7 +33,7 @@ _KEYS = {"summary", "scene", "overrides", "anatomies", "targets", "instruments",
 _DRAWN = ("friction", "tip_turn", "insertion", "noise", "stiffness", "seed", "type", "warp", "entry")
 # What a task, its `random` or an option may say.
 LIMITS = {"friction": (0.0, 10.0), "tip_turn": (-100.0, 100.0), "insertion": (0.0, 10.0), "noise": (0.0, 10.0),
-                  "stiffness": (1e-3, 1e3)}
+          "stiffness": (1e-3, 1e3)}
 _BY_LISTS = ("anatomy", "target", "instrument", "nominal", "snapshot")  # options that no distribution draws
 _EACH = ("insertion", "speed", "rotation")  # number, or a list of one for each hub
 BASELINES = ("", "retry", "follow", "lead")
@@ -148,7 +148,6 @@ class Task:
         if not isinstance(anatomy, Mapping) or not {"metresPerUnit", "ends", "centreline"} <= set(anatomy):
             raise Error(f"{file}: no anatomy: '{DOOR} anatomy FILE' writes one")
         return scene | drawn, anatomy
-
 
     @cached_property
     def by_way(self) -> list[int]:
