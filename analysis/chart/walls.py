@@ -115,8 +115,7 @@ def _fall() -> scenes.Asking[Asked]:
         ("implicitEuler", 16, 2e-3, None), ("implicitEuler", 16, 1e-3, None), ("implicitEuler", 16, 5e-4, 3e-6),
         ("implicitEuler", 30, 1e-3, 3e-6), ("implicitEuler", 30, 2e-4, 3e-6), ("bdf2", 16, 1e-2, None),
         ("bdf2", 16, 5e-3, None), ("bdf2", 16, 2e-3, None), ("bdf2", 30, 1e-3, 3e-6), ("bdf2", 30, 2e-4, 3e-6),
-        ("trbdf2", 16, 2e-2, None), ("trbdf2", 16, 1e-2, None), ("trbdf2", 16, 5e-3, None), ("trbdf2", 30, 2e-3, 3e-6),
-        ("trbdf2", 30, 1e-3, 3e-6), ("esdirk3", 16, 5e-3, None),
+        ("trbdf2", 16, 5e-3, None), ("trbdf2", 30, 1e-3, 3e-6), ("esdirk3", 16, 5e-3, None),
         ("esdirk3", 30, 1e-3, 3e-6)))
     made += others
     fine = Case("fine", direct("trbdf2", 80, 5e-6, 3e-6))  # a bounce lasts some 10 µs: steps that resolve it
@@ -201,9 +200,7 @@ def _insertion() -> scenes.Asking[Asked]:
         ("implicitEuler", 20, 2e-2, None), ("implicitEuler", 30, 2e-2, None), ("implicitEuler", 30, 1e-2, None),
         ("implicitEuler", 60, 2e-2, None), ("implicitEuler", 60, 1e-2, None), ("implicitEuler", 60, 1e-2, 1e-5),
         ("implicitEuler", 90, 1e-2, 1e-5), ("implicitEuler", 120, 2e-2, 5e-6), ("implicitEuler", 150, 2e-2, 5e-6),
-        ("implicitEuler", 200, 2e-2, 2.5e-6), ("bdf2", 60, 1e-2, None), ("bdf2", 150, 2e-2, 5e-6),
-        ("trbdf2", 60, 2e-2, None), ("trbdf2", 60, 1e-2, None), ("trbdf2", 150, 4e-2, 5e-6),
-        ("trbdf2", 150, 2e-2, 5e-6)))
+        ("implicitEuler", 200, 2e-2, 2.5e-6), ("bdf2", 60, 1e-2, None), ("bdf2", 150, 2e-2, 5e-6)))
     for n, substeps, m in ((20, 5000, 1), (20, 2000, 3), (30, 7500, 1), (60, 15000, 1)):
         changed = {"substeps": substeps, "constraintSolverSteps": m}
         made.append(Setting("xpbd", *settings.small_steps(n, 1e-2 / substeps, m), case(

@@ -85,7 +85,7 @@ def draw(seed: int, folder: Path) -> dict[str, Any]:
     write_centreline(folder / f"moving-{seed}.csv", [line[::3]], [moved[:, ::3]], phases)
     period = 1.0 / float(random.uniform(0.5, 3.0))
     speed = float(random.uniform(5.0, 60.0))
-    step = float(random.choice([0.01, 0.02, 0.05]))
+    step = float(min(random.choice([0.01, 0.02, 0.05]), 0.125 * period))
     insertion = min(0.8 * stations[-1], speed * MOST_STEPS * step)
     # Straight elements stay within 0.01 r of the bent wall.
     element = min(2.0, 0.9 * np.sqrt(8.0 * 0.01 * radius / (0.3 / bend)))
