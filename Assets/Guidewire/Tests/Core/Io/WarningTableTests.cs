@@ -102,7 +102,8 @@ namespace Guidewire.Core.Tests
                 + " 'maxSimulationSteps': 100",
             ["unstable"] = Wire + ", 'numberRodElements': 10, 'tipForce': [0, 0, -10], 'maxSimulationSteps': 2",
             ["vesselTurn"] = "'solver': 'direct', 'guidewireLength': 120, 'numberRodElements': 40,"
-                + " 'guidewireOffset': -115, 'wireRadius': 0.0004, 'massDamping': 20, 'proximalEnd': 'clamped', 'drive': 'displace',"
+                + " 'guidewireOffset': -115, 'wireRadius': 0.0004, 'massDamping': 20, 'proximalEnd': 'clamped',"
+                + " 'drive': 'displace',"
                 + " 'insertionSpeed': 0.1, 'timeStep': 0.02, 'maxSimulationSteps': 15, 'sheath': {'exit': [0, 0, 0]},"
                 + " 'vessel': {'shape': 'tube', 'radius': 2, 'knots': [[0, 0, -10], [0, 0, 10], [0, 4, 20],"
                 + " [0, 12, 30], [0, 22, 38], [0, 32, 44], [0, 42, 50], [0, 60, 60]],"

@@ -97,13 +97,13 @@ namespace Guidewire.Core.Tests
             string name)
         {
             int tried = 0;
+            ContactShape wall = TestShapes.Make(name);
+            wall.Motion = Wavy();
+            MaterialRod rod = MaterialRod.Round(6, 1.2, 0.3, 1e6, 1e6, 1e3);
+            var energy = new BarrierEnergy(rod, new[] { wall }, 1.0, new Barrier(0.1, 10.0));
+            energy.SetTime(0.37);
             for (int seed = 0; seed < 3000 && tried < 6; seed++)
             {
-                ContactShape wall = TestShapes.Make(name);
-                wall.Motion = Wavy();
-                MaterialRod rod = MaterialRod.Round(6, 1.2, 0.3, 1e6, 1e6, 1e3);
-                var energy = new BarrierEnergy(rod, new[] { wall }, 1.0, new Barrier(0.1, 10.0));
-                energy.SetTime(0.37);
                 var random = new RandomGeometry(seed);
                 var shape = new RodShape(6);
                 Vector3d x = random.Point();
