@@ -47,7 +47,8 @@ def main(site: Path, out: Path) -> None:
 
         def take(size: tuple[int, int], *orders: list[Any]) -> None:
             line = json.dumps({"steps": orders, "offline": False, "size": size})
-            done = subprocess.run(["node", str(ROOT / "guidewire/viewer/tests/browser.mjs"), str(modules.parent), browser],
+            program = str(ROOT / "guidewire/viewer/tests/browser.mjs")
+            done = subprocess.run(["node", program, str(modules.parent), browser],
                                   input=line, capture_output=True, text=True, check=True)
             if troubles := json.loads(done.stdout)["troubles"]:
                 sys.exit(f"page_pictures: {troubles}")
@@ -57,7 +58,8 @@ def main(site: Path, out: Path) -> None:
 
         begin = [["see", "document.documentElement.dataset.theme = 'dark'; document.getElementById('theme').click();"
                          " document.getElementById('theme').click()"]]
-        gallery = [["open", address], ["until", "document.querySelectorAll('#start .scenes button').length > 5"], *begin]
+        shown = "document.querySelectorAll('#start .scenes button').length > 5"
+        gallery = [["open", address], ["until", shown], *begin]
         mission = [["open", f"{address}?scene=left-arm"], ["until", SHOWN], *begin, QUIET, REST]
         take(FILM, *gallery, picture("gallery"), *mission, picture("first"), ["click", "skip"], ["down", "w"],
              *(order for k, at in enumerate(STEPS)
@@ -70,7 +72,8 @@ def main(site: Path, out: Path) -> None:
         take((390, 844), *mission, picture("page-phone"))
         for name, width in WIDTHS.items():
             with Image.open(folder / f"{name}.png") as one:
-                small = one.convert("RGB").resize((width, round(width * one.height / one.width)), Image.Resampling.LANCZOS)
+                size = width, round(width * one.height / one.width)
+                small = one.convert("RGB").resize(size, Image.Resampling.LANCZOS)
             packed = small.quantize(palette=palette_of(small, 256), dither=Image.Dither.NONE)
             packed.save(out / f"{name}.png", optimize=True)
         write_film(folder, out / "page.gif")

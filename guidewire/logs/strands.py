@@ -26,7 +26,8 @@ class Passage:
     elements : the two elements that crossed.
     writhe : change of the writhe since the entry before.
     may_be_round_the_tip : whether strands may have moved farther against each other between the entries than the wire
-        is long from the crossing to its tip. Then a strand may as well have gone round the tip, and only a finer log can tell.
+        is long from the crossing to its tip. Then a strand may as well have gone round the tip, and only a finer log
+        can tell.
     """
 
     entry: int

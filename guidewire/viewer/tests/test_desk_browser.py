@@ -259,7 +259,8 @@ def test_by_keyboard_alone_and_without_barriers(browse, desk):
 
 # Pairs of controls, figures and texts of which one lies over another; those out of the window; buttons that cut a text.
 OVERLAPS = """(() => {
-  const what = 'button, select, input, summary, output, h1, h2, strong, label, .note, .pad, .gauge, .dial, .card, .strip,'
+  const what = 'button, select, input, summary, output, h1, h2, strong, label, .note, .pad, .gauge, .dial, .card,'
+    + ' .strip,'
     + ' .advice, #arm, #note, #scaleBar, #coach, #armTools, main > section';
   const shown = [...document.querySelectorAll(what)].filter((one) => !one.closest('[inert]')
     && one.checkVisibility({ visibilityProperty: true, opacityProperty: true }));
@@ -280,7 +281,8 @@ OVERLAPS = """(() => {
   boxes.forEach((a, i) => {
     if (Math.min(a.left, a.top, innerWidth - a.right, innerHeight - a.bottom) < -1) wrong.push(`${a.name} outside`);
     const { clientWidth, scrollWidth } = a.one;
-    if (a.one.matches('button, summary, output') && clientWidth && scrollWidth > clientWidth + 1) wrong.push(`${a.name} cut`);
+    const isCut = clientWidth && scrollWidth > clientWidth + 1;
+    if (a.one.matches('button, summary, output') && isCut) wrong.push(`${a.name} cut`);
     for (const b of boxes.slice(i + 1)) {
       if (a.one.contains(b.one) || b.one.contains(a.one) || (isPicture(a.one) && isPicture(b.one))) continue;
       if ([a, b].some(({ one }) => one.id === 'swap') && [a, b].some(({ one }) => isPicture(one))) continue;

@@ -80,7 +80,8 @@ def test_the_wire_stands_out_of_road_map_and_filled_vessel(browse, desk):
                           ("roadmap", 0.1), ("contrast", 0.1), ("contrast", 0.4))))["seen"]
     for ratios, _ in seen:
         assert len(ratios) > 10 and ratios[0] > 3.4 and ratios[int(0.05 * len(ratios))] > 4.5, (ratios[:5], len(ratios))
-    for contrast, (_, darkest) in zip((0.1, 0.4), seen[1:], strict=True):    # 4 mm of lumen, the patient's brightest beside
+    # 4 mm of lumen, the patient's brightest beside.
+    for contrast, (_, darkest) in zip((0.1, 0.4), seen[1:], strict=True):
         assert darkest < 255 * 0.75 * 1.1 * np.exp(-contrast * 3.9), "the filled vessel is dark"
 
 

@@ -281,7 +281,8 @@ def test_a_task_steered_by_keys_is_recorded_and_done_again_to_the_same_bits(brow
     with serving(tmp_path, task, "--record", str(tmp_path / "drive.json"), with_three=True, what="tasks"
                  ) as (address, process):
         browse(["open", address], DRAWN, *(turn if turned else []),
-               ["see", "viewer.shown.send({do: 'pace', value: 2})"], ["down", "ArrowUp"], ["until", f"{HUB} > {pushed}"],
+               ["see", "viewer.shown.send({do: 'pace', value: 2})"], ["down", "ArrowUp"],
+               ["until", f"{HUB} > {pushed}"],
                ["up", "ArrowUp"], ["see", "viewer.shown.pause(true)"], ["until", "viewer.shown.status.isPaused"])
         process.send_signal(signal.SIGINT)
         assert (said := process.stdout.read()).startswith("recorded: "), said
