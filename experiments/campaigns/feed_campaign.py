@@ -133,7 +133,8 @@ def make(runner: Runner, seed: int, folder: Path) -> Feed:
     claims = material_claims.violations(scene, summary, positions, np.full(NODES, 1e3 * scene["wireRadius"]), walls)
     passed = passages(positions)
     if not all(one.may_be_round_the_tip for one in passed):
-        passed = _finer(runner, seed, scene, folder)
+        finer = _finer(runner, seed, scene, folder)
+        passed = passed if finer is None else finer
     claims += [f"strand through strand in entry {one.entry}, elements {one.elements}" for one in passed
                if not one.may_be_round_the_tip]
     change = None
@@ -151,13 +152,14 @@ def make(runner: Runner, seed: int, folder: Path) -> Feed:
                 sum(one.may_be_round_the_tip for one in passed), change)
 
 
-def _finer(runner: Runner, seed: int, scene: dict[str, Any], folder: Path) -> list[Passage]:
-    """Passages of the same feed in steps of a tenth: in a snap the wire moves farther than lines can follow."""
+def _finer(runner: Runner, seed: int, scene: dict[str, Any], folder: Path) -> list[Passage] | None:
+    """Passages of the same feed in steps of a tenth: in a snap the wire moves farther than lines can follow. None where
+    that run does not finish."""
     path, out = folder / f"feed-{seed}.finer.json", folder / f"run-{seed}-finer"
     finer = {key: scene[key] / _FINER for key in ("timeStep", "displacementPerStep") if key in scene}
     path.write_text(json.dumps(scene | finer | {"maxSimulationSteps": _FINER * scene["maxSimulationSteps"]}))
-    runner.run(Request(f"{seed}-finer", path, out), RUN_LIMIT)
-    return passages(read_log(out, spheres="all").positions)
+    answer = runner.run(Request(f"{seed}-finer", path, out), RUN_LIMIT)
+    return None if answer.outcome != "finished" else passages(read_log(out, spheres="all").positions)
 
 
 def main(arguments: Sequence[str]) -> int:

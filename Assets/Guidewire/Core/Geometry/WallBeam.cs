@@ -18,8 +18,7 @@ namespace Guidewire.Core
 
         private const int MostSplines = 200;
         private const double Hold = 1e6;             // times the foundation of one spline: what holds an end
-        private static readonly double[] Gauss = { 0.06943184420297371, 0.33000947820757187 };    // and 1 less them
-        private static readonly double[] GaussWeight = { 0.17392742256872692, 0.32607257743127307 };
+        private const int GaussPoints = 4;           // of a piece
 
         private readonly Vector3d[] _points;         // of the centreline, a piece apart, units
         private readonly Vector3d[] _second;         // its second derivatives there
@@ -61,7 +60,7 @@ namespace Guidewire.Core
             AddHolds(holds, Hold * foundation * metres * _spacing);
         }
 
-        /// <summary>Of the centreline, units.</summary>
+        /// <summary>The length of the centreline, units.</summary>
         public double Length { get; }
 
         /// <summary>The number of splines.</summary>
@@ -81,11 +80,11 @@ namespace Guidewire.Core
         /// <param name="column">The same.</param>
         internal double Stiffness(int row, int column) => _stiffness[3 * Count * row + column];
 
-        /// <summary>The force that it needs to be displaced so, N by spline.</summary>
-        /// <param name="q">m.</param>
-        internal Vector3d[] Force(Vector3d[] q)
+        /// <summary>Finds the force that it needs to be displaced so.</summary>
+        /// <param name="q">m by spline.</param>
+        /// <param name="force">Receives it, N by spline.</param>
+        internal void FindForce(Vector3d[] q, Vector3d[] force)
         {
-            var force = new Vector3d[Count];
             for (int j = 0; j < Count; j++)
             {
                 double x = 0.0;
@@ -100,7 +99,6 @@ namespace Guidewire.Core
                 }
                 force[j] = new Vector3d(x, y, z);
             }
-            return force;
         }
 
         private double Product(int at, in Vector3d q) =>
@@ -190,13 +188,17 @@ namespace Guidewire.Core
         // With EI, EA and k such that lengths count in units.
         private void AddBending(double bending, double stretching, double foundation)
         {
+            var points = new (double Point, double Weight)[GaussPoints];
+            for (int g = 0; g < GaussPoints; g++)
+            {
+                points[g] = GaussLegendre.At(GaussPoints, g);
+            }
             for (int piece = 0; piece < _points.Length - 1; piece++)
             {
-                for (int g = 0; g < 4; g++)
+                foreach ((double point, double part) in points)
                 {
-                    double at = g < 2 ? Gauss[g] : 1.0 - Gauss[3 - g];
-                    double weight = GaussWeight[g < 2 ? g : 3 - g] * _piece;
-                    double station = (piece + at) * _piece;
+                    double weight = 0.5 * part * _piece;
+                    double station = (piece + 0.5 * (1.0 + point)) * _piece;
                     Evaluate(station, out _, out Vector3d first, out Vector3d second);
                     Splines splines = SplinesAt(station);
                     double square = first.LengthSquared;
@@ -319,7 +321,7 @@ namespace Guidewire.Core
             return sum;
         }
 
-        /// <summary>The same with another motion of the wall after it.</summary>
+        /// <summary>Gives the weight of a point that goes on by another motion of the wall.</summary>
         public BeamWeight After(in Matrix3 map) => new BeamWeight(Splines, map.Times(_a), map.Times(_b));
     }
 

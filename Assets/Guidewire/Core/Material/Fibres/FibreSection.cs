@@ -49,7 +49,7 @@ namespace Guidewire.Core
             double span = radius * radius - hollow;
             for (int i = 0; i < rings; i++)
             {
-                (double point, double weight) = GaussLegendre(rings, i);
+                (double point, double weight) = GaussLegendre.At(rings, i);
                 double r = Math.Sqrt(hollow + 0.5 * span * (1.0 + point));
                 _reach = Math.Max(_reach, r);
                 for (int j = 0; j < half; j++)
@@ -214,30 +214,6 @@ namespace Guidewire.Core
                 }
             }
             return Math.Max(-_most, Math.Min(_most, own));
-        }
-
-        // Point and weight on [-1, 1] by Newton's method on Legendre's polynomial.
-        private static (double Point, double Weight) GaussLegendre(int count, int index)
-        {
-            double x = Math.Cos(Math.PI * (index + 0.75) / (count + 0.5));
-            double slope = 0.0;
-            for (int k = 0; k < 20; k++)
-            {
-                double before = 1.0;
-                double value = x;
-                for (int n = 2; n <= count; n++)
-                {
-                    (before, value) = (value, ((2.0 * n - 1.0) * x * value - (n - 1.0) * before) / n);
-                }
-                slope = count * (x * value - before) / (x * x - 1.0);
-                double next = x - value / slope;
-                if (next == x)
-                {
-                    break;
-                }
-                x = next;
-            }
-            return (x, 2.0 / ((1.0 - x * x) * slope * slope));
         }
     }
 

@@ -128,7 +128,7 @@ namespace Guidewire.Core
         /// <summary>Whether second derivatives have what the turning sections of a vessel add.</summary>
         public bool HasTurning { get; private set; }
 
-        /// <summary>Leaves it out.</summary>
+        /// <summary>Second derivatives leave out what the turning sections of a vessel add.</summary>
         public void DropTurning(bool isOn) => HasTurning = Fields.Beam != null && !isOn;
 
         /// <summary>The walls, in units.</summary>

@@ -5,21 +5,23 @@ namespace Guidewire.Core
     internal sealed class VesselEnergy : EnergyTerm
     {
         private readonly WallBeam _beam;
+        private readonly Vector3d[] _force;    // N by spline
 
-        /// <summary>Of a beam.</summary>
+        /// <summary>Makes the energy of this beam.</summary>
         public VesselEnergy(WallBeam beam)
         {
             _beam = beam;
+            _force = new Vector3d[beam.Count];
         }
 
         /// <inheritdoc/>
         public override double Value(RodShape shape)
         {
             double sum = 0.0;
-            Vector3d[] force = _beam.Force(shape.Vessel);
-            for (int j = 0; j < force.Length; j++)
+            _beam.FindForce(shape.Vessel, _force);
+            for (int j = 0; j < _force.Length; j++)
             {
-                sum += 0.5 * Vector3d.Dot(force[j], shape.Vessel[j]);
+                sum += 0.5 * Vector3d.Dot(_force[j], shape.Vessel[j]);
             }
             return sum;
         }
@@ -32,10 +34,10 @@ namespace Guidewire.Core
             {
                 return;
             }
-            Vector3d[] force = _beam.Force(shape.Vessel);
-            for (int j = 0; j < force.Length; j++)
+            _beam.FindForce(shape.Vessel, _force);
+            for (int j = 0; j < _force.Length; j++)
             {
-                gradient[shape.VesselStart + j].AddX(force[j]);
+                gradient[shape.VesselStart + j].AddX(_force[j]);
             }
         }
 
