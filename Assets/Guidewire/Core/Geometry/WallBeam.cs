@@ -393,7 +393,7 @@ namespace Guidewire.Core
             return isOther;
         }
 
-        /// <summary>Takes those of another one.</summary>
+        /// <summary>Takes the displacements of another field's splines.</summary>
         public void Follow(BeamField other) => Set(other._q, 1.0);
 
         /// <summary>The place of the wall at rest that is at x, units, with its derivative, which is 0 where the wall

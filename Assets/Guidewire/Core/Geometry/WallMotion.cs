@@ -146,7 +146,7 @@ namespace Guidewire.Core
             };
         }
 
-        /// <summary>The same cycle, faster or slower, from another phase on.</summary>
+        /// <summary>Gives the cycle of these motions with another period, which begins at another phase.</summary>
         public MotionCycle At(double period, double phase) =>
             new MotionCycle(period, phase, _table, _sine) { IsRigid = IsRigid, About = About, Count = Count };
 

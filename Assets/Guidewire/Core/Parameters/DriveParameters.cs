@@ -78,7 +78,7 @@ namespace Guidewire.Core
         internal double LargestSlip(double timeStep) =>
             SlipSpeed > 0.0 ? SlipSpeed * timeStep : double.PositiveInfinity;
 
-        /// <summary>The same values; lists and walls are shared.</summary>
+        /// <summary>Gives a copy of the values; lists and walls are shared.</summary>
         internal DriveParameters Copy() => (DriveParameters)MemberwiseClone();
     }
 

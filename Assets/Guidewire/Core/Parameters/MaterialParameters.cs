@@ -79,7 +79,7 @@ namespace Guidewire.Core
         /// <summary>The law of a joint.</summary>
         public BendLaw BendLaw { get; set; } = BendLaw.RotationVector;
 
-        /// <summary>The same values; lists and walls are shared.</summary>
+        /// <summary>Gives a copy of the values; lists and walls are shared.</summary>
         internal MaterialParameters Copy() => (MaterialParameters)MemberwiseClone();
     }
 

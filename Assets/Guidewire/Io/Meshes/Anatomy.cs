@@ -79,10 +79,10 @@ namespace Guidewire.Io
             Point = point;
         }
 
-        /// <summary>As reports and keys have it, from 1.</summary>
+        /// <summary>The number by which reports and keys name it, from 1.</summary>
         public int Number { get; }
 
-        /// <summary>As reports and keys have it.</summary>
+        /// <summary>The name by which reports and keys know it.</summary>
         public string Name { get; }
 
         /// <summary>The end's middle.</summary>

@@ -503,7 +503,7 @@ namespace Guidewire.Core
         /// <summary>Whether less than half of the most is left.</summary>
         public bool IsScarce => _left < Max / 2;
 
-        /// <summary>That nothing is left, in one phrase.</summary>
+        /// <summary>Says in one phrase that all iterations are spent.</summary>
         public string Text => string.Format(CultureInfo.InvariantCulture,
             "steps that were halved took more Newton iterations than a run may ({0} times maxNewtonIterations at once, "
             + "{1} times a step), as where a wire coils up or jams", AtOnce * _times, AStep * _times);

@@ -201,7 +201,7 @@ namespace Guidewire.Core
         private readonly double[] _inside;      // how far each tip may go back, m
         private readonly double[] _gap;         // how far each hub is behind the next one around it, m
 
-        /// <summary>Of the hubs of a setup at their start.</summary>
+        /// <summary>Takes the hubs of a setup, which are at their start.</summary>
         public HubOrder(CoaxialSetup setup, MaterialDrive[] drives, CoaxialHubs hubs)
         {
             _instrument = setup.Instruments;

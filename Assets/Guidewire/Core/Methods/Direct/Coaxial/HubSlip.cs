@@ -263,7 +263,7 @@ namespace Guidewire.Core
         private readonly StepStart _start;
         private readonly bool _areLimited;
 
-        /// <summary>Those of a step.</summary>
+        /// <summary>Makes the search for the slips of a step's hubs.</summary>
         /// <param name="start">Restores its start.</param>
         public SlippingHubs(DirectStep step, StepStart start)
         {

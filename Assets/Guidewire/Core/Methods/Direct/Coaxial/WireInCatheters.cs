@@ -210,7 +210,7 @@ namespace Guidewire.Core
         private readonly Vector3d _axis;
         private readonly double[] _forces;             // of the hubs without friction, N
 
-        /// <summary>Of the catheters of a setup.</summary>
+        /// <summary>Makes empty records of the catheters of a setup.</summary>
         public CatheterRecords(CoaxialSetup setup, MaterialDrive[] drives)
         {
             _records = setup.Records();
