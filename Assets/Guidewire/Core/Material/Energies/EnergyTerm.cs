@@ -1,4 +1,5 @@
 using System;
+using System.Runtime.CompilerServices;
 using System.Runtime.InteropServices;
 
 namespace Guidewire.Core
@@ -160,5 +161,149 @@ namespace Guidewire.Core
         public double Bend2;
         public double Twist;
         public Vector3d Rest;
+    }
+
+    /// <summary>Sums over a list of energy terms: value, gradient, blocks, largest step.</summary>
+    internal static class EnergySum
+    {
+        /// <summary>Gives the sum of the energies, J.</summary>
+        /// <param name="magnitude">Sum of their magnitudes, J: what rounding goes with.</param>
+        public static double Value(EnergyTerm[] terms, RodShape shape, out double magnitude)
+        {
+            double sum = 0.0;
+            magnitude = 0.0;
+            foreach (EnergyTerm term in terms)
+            {
+                double value = term.Value(shape);
+                sum += value;
+                magnitude += Math.Abs(value);
+            }
+            return sum;
+        }
+
+        /// <summary>Gives the same, term by term.</summary>
+        /// <param name="values">Receives the energy of each term, J.</param>
+        public static double Value(EnergyTerm[] terms, RodShape shape, double[] values, out double magnitude)
+        {
+            for (int k = 0; k < terms.Length; k++)
+            {
+                values[k] = terms[k].Value(shape);
+            }
+            return Sum(values, out magnitude);
+        }
+
+        /// <summary>The same once more, after every term was anchored in that shape.</summary>
+        public static double AnchoredValue(EnergyTerm[] terms, double[] values, out double magnitude)
+        {
+            for (int k = 0; k < terms.Length; k++)
+            {
+                values[k] = terms[k].AnchoredValue(values[k]);
+            }
+            return Sum(values, out magnitude);
+        }
+
+        private static double Sum(double[] values, out double magnitude)
+        {
+            double sum = 0.0;
+            magnitude = 0.0;
+            foreach (double value in values)
+            {
+                sum += value;
+                magnitude += Math.Abs(value);
+            }
+            return sum;
+        }
+
+        /// <summary>Every term counts work from this shape on.</summary>
+        public static void Anchor(EnergyTerm[] terms, RodShape shape)
+        {
+            foreach (EnergyTerm term in terms)
+            {
+                term.Anchor(shape);
+            }
+        }
+
+        /// <summary>Second derivatives with or without what need not be positive.</summary>
+        public static void DropGeometricStiffness(EnergyTerm[] terms, bool isOn)
+        {
+            foreach (EnergyTerm term in terms)
+            {
+                term.DropGeometricStiffness(isOn);
+            }
+        }
+
+        /// <summary>Gives the largest fraction of a step, at most 1, that no term forbids.</summary>
+        public static double MaxStep(EnergyTerm[] terms, RodShape shape, RodVector[] direction, double scale)
+        {
+            double fraction = 1.0;
+            foreach (EnergyTerm term in terms)
+            {
+                fraction = Math.Min(fraction, term.MaxStep(shape, direction, scale));
+            }
+            return fraction;
+        }
+    }
+
+    /// <summary>Six numbers of one node and the element after it: X along the world's axes (a displacement in m or a
+    /// force in N), T along the element's own axes (a turn in radians or a couple in N m).</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal struct RodVector
+    {
+        public double X1, X2, X3;
+        public double T1, T2, T3;
+
+        /// <summary>Makes one of both.</summary>
+        public RodVector(in Vector3d x, in Vector3d t)
+        {
+            (X1, X2, X3) = (x.X, x.Y, x.Z);
+            (T1, T2, T3) = (t.X, t.Y, t.Z);
+        }
+
+        /// <summary>X as a vector.</summary>
+        public Vector3d X
+        {
+            [MethodImpl(MethodImplOptions.AggressiveInlining)]
+            readonly get => new Vector3d(X1, X2, X3);
+            [MethodImpl(MethodImplOptions.AggressiveInlining)]
+            set => (X1, X2, X3) = (value.X, value.Y, value.Z);
+        }
+
+        /// <summary>T as a vector.</summary>
+        public readonly Vector3d T => new Vector3d(T1, T2, T3);
+
+        /// <summary>Adds to X.</summary>
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        public void AddX(in Vector3d x)
+        {
+            X1 += x.X;
+            X2 += x.Y;
+            X3 += x.Z;
+        }
+
+        /// <summary>Adds to T.</summary>
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        public void AddT(in Vector3d t)
+        {
+            T1 += t.X;
+            T2 += t.Y;
+            T3 += t.Z;
+        }
+
+        /// <summary>Adds another one times a number.</summary>
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        public void AddScaled(double scale, in RodVector v)
+        {
+            X1 += scale * v.X1;
+            X2 += scale * v.X2;
+            X3 += scale * v.X3;
+            T1 += scale * v.T1;
+            T2 += scale * v.T2;
+            T3 += scale * v.T3;
+        }
+
+        /// <summary>Takes the scalar product a . b.</summary>
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        public static double Dot(in RodVector a, in RodVector b) =>
+            a.X1 * b.X1 + a.X2 * b.X2 + a.X3 * b.X3 + a.T1 * b.T1 + a.T2 * b.T2 + a.T3 * b.T3;
     }
 }
