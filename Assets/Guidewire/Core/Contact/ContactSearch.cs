@@ -2,6 +2,69 @@ using System;
 
 namespace Guidewire.Core
 {
+    /// <summary>Finds the spheres and rod elements near the walls, without any response. One implementation per contact
+    /// rule, chosen once.</summary>
+    internal interface IContactSearch : IWallClearance
+    {
+        /// <summary>Whether spheres may not pass a wall, so that the swept test looks for points where they
+        /// would.</summary>
+        bool GuardsSpheres { get; }
+
+        /// <summary>Whether rod elements may not pass either.</summary>
+        bool GuardsElements { get; }
+
+        /// <summary>What the last search found, wall by wall and along the wire.</summary>
+        StructList<WireContact> Contacts { get; }
+
+        /// <summary>The impacts that the swept test found; without stops there the motion would pass the wall.
+        /// </summary>
+        StructList<WireContact> Impacts { get; }
+
+        /// <summary>Finds the contacts of a motion of the wire.</summary>
+        /// <param name="from">Where the n + 1 spheres are, units; under a rule that guards, clear of the walls.</param>
+        /// <param name="to">Where the prediction takes them.</param>
+        void Find(Vector3d[] from, Vector3d[] to);
+    }
+
+    /// <summary>Lower bounds of the distances between a wire's elements and walls.</summary>
+    internal interface IWallClearance
+    {
+        /// <summary>The walls from which distances count.</summary>
+        ContactShape[] Walls { get; }
+
+        /// <summary>Radius of the wire, its least where it varies, units.</summary>
+        double Radius { get; }
+
+        /// <summary>Lower bound of the distance of element j from wall w at the start of the motion under test,
+        /// units.</summary>
+        double ClearanceOf(int w, int j);
+    }
+
+    /// <summary>A sphere or a rod element that is near a wall, and where.</summary>
+    internal readonly struct WireContact
+    {
+        /// <summary>The wall, by its index in the scene's list.</summary>
+        public readonly int Wall;
+
+        /// <summary>The sphere, 0 to n, or the rod element, 0 to n - 1, from sphere Index to Index + 1.</summary>
+        public readonly int Index;
+
+        /// <summary>True for a rod element, false for a sphere.</summary>
+        public readonly bool IsElement;
+
+        /// <summary>Where it comes nearest to the wall; its position runs along the element.</summary>
+        public readonly SurfaceContact Nearest;
+
+        /// <summary>Makes a contact with these values.</summary>
+        public WireContact(int wall, int index, bool isElement, in SurfaceContact nearest)
+        {
+            Wall = wall;
+            Index = index;
+            IsElement = isElement;
+            Nearest = nearest;
+        }
+    }
+
     /// <summary>Searches for spheres and, unless switched off, rod elements near the walls.</summary>
     /// <remarks>One search an element tells whether anything is in range. Only then the two spheres are searched; where
     /// the element touches with an end, the sphere's own contact represents it and, where spheres leave gaps, the
@@ -180,6 +243,189 @@ namespace Guidewire.Core
         {
             Contacts.Add(impact);
             Impacts.Add(impact);
+        }
+    }
+
+    /// <summary>Contacts as published (thesis 3.1.2): at the predicted state, every sphere and every rod element whose
+    /// core is within a sphere's radius of the wall. Passages are not prevented, and distances at the start of a
+    /// displacement are not known.</summary>
+    internal sealed class ThesisContactSearch : IContactSearch
+    {
+        private readonly int[] _elementHint;
+        private readonly int[] _sphereHint;
+
+        /// <param name="walls">Walls of the scene.</param>
+        /// <param name="elementCount">n.</param>
+        /// <param name="radius">r in units.</param>
+        public ThesisContactSearch(ContactShape[] walls, int elementCount, double radius)
+        {
+            Walls = walls;
+            Radius = radius;
+            _elementHint = new int[walls.Length * elementCount];
+            _sphereHint = new int[walls.Length * (elementCount + 1)];
+            Array.Fill(_elementHint, -1);
+            Array.Fill(_sphereHint, -1);
+            Contacts = new StructList<WireContact>(_elementHint.Length + _sphereHint.Length);
+        }
+
+        /// <inheritdoc/>
+        public ContactShape[] Walls { get; }
+
+        /// <inheritdoc/>
+        public double Radius { get; }
+
+        /// <inheritdoc/>
+        public bool GuardsSpheres => false;
+
+        /// <inheritdoc/>
+        public bool GuardsElements => false;
+
+        /// <inheritdoc/>
+        public StructList<WireContact> Contacts { get; }
+
+        /// <inheritdoc/>
+        public StructList<WireContact> Impacts { get; } = new StructList<WireContact>(1);
+
+        /// <inheritdoc/>
+        public void Find(Vector3d[] from, Vector3d[] to)
+        {
+            Contacts.Clear();
+            int n = to.Length - 1;
+            for (int w = 0; w < Walls.Length; w++)
+            {
+                for (int i = 0; i <= n; i++)
+                {
+                    if (Walls[w].Nearest(
+                        to[i], to[i], Radius, ref _sphereHint[w * (n + 1) + i], out SurfaceContact contact))
+                    {
+                        Contacts.Add(new WireContact(w, i, false, contact));
+                    }
+                }
+                for (int j = 0; j < n; j++)
+                {
+                    if (Walls[w].Nearest(
+                        to[j], to[j + 1], Radius, ref _elementHint[w * n + j], out SurfaceContact contact))
+                    {
+                        Contacts.Add(new WireContact(w, j, true, contact));
+                    }
+                }
+            }
+        }
+
+        /// <inheritdoc/>
+        public double ClearanceOf(int w, int j) => double.NegativeInfinity;
+    }
+
+    /// <summary>Finds where a displacement of the wire would pass a wall (swept tests).</summary>
+    /// <remarks>The start of every motion is clear of the wall by induction: a motion is only accepted when the swept
+    /// test finds it clear, and the wire does not move at all where nothing else is. An element whose distance at the
+    /// start is known to exceed the displacement of its ends cannot meet the wall and is not swept.</remarks>
+    internal sealed class SweptSearch
+    {
+        private readonly IContactSearch _search;
+        private readonly ContactShape[] _walls;
+        private readonly double _clearance;
+
+        /// <param name="search">Its walls and radius; which parts of the wire it guards, and what it knows of their
+        /// distance at the start of the motion.</param>
+        /// <param name="sphereCount">n + 1.</param>
+        public SweptSearch(IContactSearch search, int sphereCount)
+        {
+            _search = search;
+            _walls = search.Walls;
+            _clearance = ClearanceFor(search.Radius);
+            Impacts = new StructList<WireContact>(2 * sphereCount);
+        }
+
+        /// <summary>What the last <see cref="Find"/> met, along the wire: each guarded sphere's and element's first
+        /// impact.</summary>
+        public StructList<WireContact> Impacts { get; }
+
+        /// <summary>Clearance between core line and wall in the swept test, units: enough to stay clear of rounding,
+        /// too little to matter.</summary>
+        public static double ClearanceFor(double radius) => 1e-3 * radius;
+
+        /// <summary>Lists every point where the motion would pass a wall; true when there is one.</summary>
+        /// <param name="from">Where the n + 1 spheres are, clear of the walls; units.</param>
+        /// <param name="to">Where they would go.</param>
+        public bool Find(Vector3d[] from, Vector3d[] to)
+        {
+            Impacts.Clear();
+            bool wasHit = false;
+            for (int i = 0; i < to.Length; i++)
+            {
+                WireContact element = default;
+                bool isHit = i + 1 < to.Length && ElementImpact(from, to, i, out element) < ContactShape.NoImpact;
+
+                // A sphere is an end of its elements: where they are free, it is.
+                if ((wasHit || isHit || !_search.GuardsElements)
+                    && SphereImpact(from, to, i, out WireContact sphere) < ContactShape.NoImpact)
+                {
+                    Impacts.Add(sphere);
+                }
+                if (isHit)
+                {
+                    Impacts.Add(element);
+                }
+                wasHit = isHit;
+            }
+            return Impacts.Count > 0;
+        }
+
+        /// <summary>Fraction of the motion after which sphere i meets a wall, <see cref="ContactShape.NoImpact"/> where
+        /// it meets none or is not guarded.</summary>
+        public double SphereImpact(Vector3d[] from, Vector3d[] to, int i, out WireContact impact)
+        {
+            impact = default;
+            if (!_search.GuardsSpheres)
+            {
+                return ContactShape.NoImpact;
+            }
+            return Impact(from, to, i, i, out impact);
+        }
+
+        /// <summary>Gives the same for the rod element from sphere j to sphere j + 1.</summary>
+        public double ElementImpact(Vector3d[] from, Vector3d[] to, int j, out WireContact impact)
+        {
+            impact = default;
+            return _search.GuardsElements
+                ? Impact(from, to, j, j + 1, out impact) : ContactShape.NoImpact;
+        }
+
+        private double Impact(Vector3d[] from, Vector3d[] to, int i, int k, out WireContact impact)
+        {
+            impact = default;
+            double motion = Math.Max(Vector3d.Distance(from[i], to[i]), Vector3d.Distance(from[k], to[k]));
+            double first = ContactShape.NoImpact;
+            if (motion == 0.0)
+            {
+                return first;
+            }
+            for (int w = 0; w < _walls.Length; w++)
+            {
+                if (motion + _clearance < ClearanceOf(w, i, k, to.Length - 1))
+                {
+                    continue;
+                }
+                double time = _walls[w].TimeOfImpact(from[i], from[k], to[i], to[k], _clearance, out SurfaceContact at);
+                if (time < first)
+                {
+                    first = time;
+                    impact = new WireContact(w, i, i != k, at);
+                }
+            }
+            return first;
+        }
+
+        // Lower bound of the distance of an element, or of a sphere by its elements.
+        private double ClearanceOf(int w, int i, int k, int elementCount)
+        {
+            if (i != k)
+            {
+                return _search.ClearanceOf(w, i);
+            }
+            return Math.Max(
+                i > 0 ? _search.ClearanceOf(w, i - 1) : 0.0, i < elementCount ? _search.ClearanceOf(w, i) : 0.0);
         }
     }
 }

@@ -107,4 +107,141 @@ namespace Guidewire.Io
         /// <summary>The length of the arc along the wire, m.</summary>
         public readonly double ArcLength => Math.Abs(Angle) * Radius;
     }
+
+    /// <summary>The physical quantity of a number in a file.</summary>
+    internal enum Dimension
+    {
+        /// <summary>The quantity is a length, m.</summary>
+        Length,
+
+        /// <summary>The quantity is an angle, rad.</summary>
+        Angle,
+
+        /// <summary>The quantity is a time, s.</summary>
+        Time,
+
+        /// <summary>The quantity is a modulus, Pa.</summary>
+        Modulus,
+
+        /// <summary>A bending or torsional stiffness, N m^2.</summary>
+        Stiffness,
+
+        /// <summary>The quantity is a density, kg/m^3.</summary>
+        Density,
+
+        /// <summary>The quantity is a force, N.</summary>
+        Force,
+
+        /// <summary>The quantity is a plain number.</summary>
+        Number,
+    }
+
+    /// <summary>The units of instruments' files and of tables, and their size in SI: a French is a third of a
+    /// millimetre, an inch 25.4 mm, a gram as a force its standard weight.</summary>
+    internal static class UnitTable
+    {
+        private static readonly (string Unit, Dimension Of, double Size)[] Units =
+        {
+            ("m", Dimension.Length, 1.0),
+            ("cm", Dimension.Length, 1e-2),
+            ("mm", Dimension.Length, 1e-3),
+            ("um", Dimension.Length, 1e-6),
+            ("in", Dimension.Length, 0.0254),
+            ("F", Dimension.Length, 1e-3 / 3.0),
+            ("deg", Dimension.Angle, Math.PI / 180.0),
+            ("rad", Dimension.Angle, 1.0),
+            ("s", Dimension.Time, 1.0),
+            ("ms", Dimension.Time, 1e-3),
+            ("Pa", Dimension.Modulus, 1.0),
+            ("MPa", Dimension.Modulus, 1e6),
+            ("GPa", Dimension.Modulus, 1e9),
+            ("N m2", Dimension.Stiffness, 1.0),
+            ("N mm2", Dimension.Stiffness, 1e-6),
+            ("kg/m3", Dimension.Density, 1.0),
+            ("g/cm3", Dimension.Density, 1e3),
+            ("N", Dimension.Force, 1.0),
+            ("mN", Dimension.Force, 1e-3),
+            ("g", Dimension.Force, 9.80665e-3),
+            ("", Dimension.Number, 1.0),
+        };
+
+        /// <summary>Gives the value of a text such as "0.035 in", in SI.</summary>
+        /// <param name="text">A number, a space and a unit; a number alone where it has no dimension.</param>
+        /// <param name="dimension">What it must measure.</param>
+        /// <param name="value">The value in SI; finite.</param>
+        /// <returns>What is wrong and what is needed, or null.</returns>
+        public static string? FindError(string text, Dimension dimension, out double value)
+        {
+            string trimmed = text.Trim();
+            int space = trimmed.IndexOf(' ');
+            string number = space < 0 ? trimmed : trimmed.Substring(0, space);
+            string unit = space < 0 ? "" : trimmed.Substring(space + 1).Trim();
+            if (!NumberText.TryRead(number, out value))
+            {
+                return "a number, a space and a unit, such as \"" + Words(dimension).Example + "\"";
+            }
+            foreach ((string known, Dimension of, double size) in Units)
+            {
+                if (known == unit)
+                {
+                    value *= size;
+                    return of == dimension ? null
+                        : Words(dimension).Noun + ", and " + (unit.Length == 0 ? "this has no unit"
+                            : unit + " is the unit of " + Words(of).Noun) + ": allowed are " + Of(dimension);
+                }
+            }
+            return Words(dimension).Noun + " in a known unit, not '" + unit + "': allowed are " + Of(dimension);
+        }
+
+        /// <summary>Finds the size of a unit in SI.</summary>
+        /// <param name="dimension">What it must measure.</param>
+        /// <returns>False where it is no unit of that.</returns>
+        public static bool TrySize(string unit, Dimension dimension, out double size)
+        {
+            (string Unit, Dimension Of, double Size) known = Array.Find(Units, one => one.Unit == unit);
+            size = known.Size;
+            return known.Unit != null && known.Of == dimension;
+        }
+
+        /// <summary>Gives the SI unit of a dimension.</summary>
+        public static string SIUnitOf(Dimension dimension) =>
+            Array.Find(Units, one => one.Of == dimension && one.Size == 1.0).Unit;
+
+        /// <summary>The units of a dimension, with commas between.</summary>
+        public static string Of(Dimension dimension)
+        {
+            var words = new List<string>();
+            foreach ((string unit, Dimension of, double _) in Units)
+            {
+                if (of == dimension)
+                {
+                    words.Add(unit.Length == 0 ? "a number alone" : unit);
+                }
+            }
+            return string.Join(", ", words);
+        }
+
+        private static (string Noun, string Example) Words(Dimension dimension)
+        {
+            switch (dimension)
+            {
+                case Dimension.Length:
+                    return ("a length", "0.035 in");
+                case Dimension.Angle:
+                    return ("an angle", "45 deg");
+                case Dimension.Time:
+                    return ("a time", "1.5 s");
+                case Dimension.Modulus:
+                    return ("a modulus", "60.3 GPa");
+                case Dimension.Stiffness:
+                    return ("a stiffness EI or GJ", "1.2e-3 N m2");
+                case Dimension.Density:
+                    return ("a density", "6450 kg/m3");
+                case Dimension.Force:
+                    return ("a force", "2 g");
+                default:
+                    return ("a number without a unit", "0.05");
+            }
+        }
+    }
 }

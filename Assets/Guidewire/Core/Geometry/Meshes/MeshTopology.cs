@@ -386,4 +386,131 @@ namespace Guidewire.Core
             return i;
         }
     }
+
+    /// <summary>Self-intersections of a mesh: edges that pierce triangles with which they share no vertex. Mere
+    /// contact, to <see cref="RelativeDepth"/>, does not count.</summary>
+    internal static class SelfIntersection
+    {
+        // How far both ends of an edge lie off a triangle's plane at least, over the mesh's size.
+        private const double RelativeDepth = 1e-9;
+
+        /// <summary>How many times an edge pierces a triangle, and where the first such edge does.</summary>
+        public static int Count(MeshGeometry wall, out Vector3d position)
+        {
+            position = Vector3d.Zero;
+            double depth = RelativeDepth * Extents.Of(wall.Corners).LargestSide;
+            var near = new StructList<int>(64);
+            int first = int.MaxValue;
+            int count = 0;
+            foreach (int triangle in wall.Tree.Order) // so that each search is near the last one
+            {
+                for (int edge = 3 * triangle; edge < 3 * triangle + 3; edge++)
+                {
+                    if (wall.EdgeOf(edge) != edge)
+                    {
+                        continue;
+                    }
+                    wall.EndsOf(edge, out int from, out int to);
+                    near.Clear();
+                    wall.Tree.Within(wall.Corners[from], wall.Corners[to], depth, near);
+                    for (int k = 0; k < near.Count; k++)
+                    {
+                        if (Pierces(wall, wall.Corners[from], wall.Corners[to], near[k], depth, out Vector3d point)
+                            && !SharesVertex(wall, from, to, near[k]))
+                        {
+                            position = edge < first ? point : position;
+                            first = Math.Min(first, edge);
+                            count++;
+                        }
+                    }
+                }
+            }
+            return count;
+        }
+
+        private static bool SharesVertex(MeshGeometry wall, int from, int to, int triangle)
+        {
+            for (int k = 3 * triangle; k < 3 * triangle + 3; k++)
+            {
+                if (wall.VertexAt(k) == wall.VertexAt(from) || wall.VertexAt(k) == wall.VertexAt(to))
+                {
+                    return true;
+                }
+            }
+            return false;
+        }
+
+        private static bool Pierces(
+            MeshGeometry wall, in Vector3d a, in Vector3d b, int triangle, double depth, out Vector3d point)
+        {
+            Vector3d n = wall.FaceNormals[triangle];
+            Vector3d corner = wall.Corners[3 * triangle];
+            double above = Vector3d.Dot(n, a - corner);
+            double below = Vector3d.Dot(n, b - corner);
+            point = corner;
+            if (!(Math.Min(above, below) < -depth && Math.Max(above, below) > depth))
+            {
+                return false;
+            }
+            point = Vector3d.Lerp(a, b, above / (above - below));
+            double least = double.PositiveInfinity;
+            double largest = double.NegativeInfinity;
+            for (int k = 0; k < 3; k++)
+            {
+                Vector3d start = wall.Corners[3 * triangle + k];
+                Vector3d side = wall.Corners[3 * triangle + (k + 1) % 3] - start;
+                double inward = Vector3d.Dot(n, Vector3d.Cross(side, point - start)) / side.Length;
+                least = Math.Min(least, inward);
+                largest = Math.Max(largest, inward);
+            }
+            return least >= -depth || largest <= depth;
+        }
+    }
+
+    /// <summary>What was found in a vessel's mesh and what of it was repaired, by count.</summary>
+    public sealed class MeshReport
+    {
+        /// <summary>Vertices after those that are one up to rounding became one.</summary>
+        public int Vertices { get; internal set; }
+
+        /// <summary>Triangles that are used.</summary>
+        public int Triangles { get; internal set; }
+
+        /// <summary>Vertices that were taken for an earlier one: no farther from it than
+        /// <see cref="VertexWeld.RelativeTolerance"/> of the mesh's size.</summary>
+        public int WeldedVertices { get; internal set; }
+
+        /// <summary>Triangles left out because two of their corners are one vertex.</summary>
+        public int CollapsedTriangles { get; internal set; }
+
+        /// <summary>Triangles left out because they repeat an earlier one.</summary>
+        public int RepeatedTriangles { get; internal set; }
+
+        /// <summary>Triangles of no area between three different vertices. They are kept: they close the surface, and
+        /// the distance from them is exact.</summary>
+        public int FlatTriangles { get; internal set; }
+
+        /// <summary>Triangles turned round so that neighbours agree.</summary>
+        public int TurnedTriangles { get; internal set; }
+
+        /// <summary>True when the whole surface was turned, so that its normals point into the lumen.</summary>
+        public bool TurnedInward { get; internal set; }
+
+        /// <summary>Open rims, all of them named.</summary>
+        public int OpenRims { get; internal set; }
+
+        /// <summary>Volume of the lumen, open rims closed by a fan, units^3.</summary>
+        public double Volume { get; internal set; }
+
+        /// <summary>Gives one line with every count.</summary>
+        public override string ToString()
+        {
+            return string.Format(
+                CultureInfo.InvariantCulture,
+                "{0} triangles, {1} vertices, {2} open rims; welded {3}, collapsed {4}, repeated {5}, flat {6}, "
+                + "turned {7}{8}",
+                Triangles, Vertices, OpenRims, WeldedVertices, CollapsedTriangles, RepeatedTriangles, FlatTriangles,
+                TurnedTriangles, TurnedInward ? ", all turned inward" : "");
+        }
+    }
 }

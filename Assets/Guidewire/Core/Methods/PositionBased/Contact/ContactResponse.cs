@@ -152,4 +152,194 @@ namespace Guidewire.Core
             }
         }
     }
+
+    /// <summary>Contact as published (thesis 3.1.2): each sphere of a touching element is drawn to the point
+    /// c + (r + margin) n_i, dp_i = k_C (c + (r + margin) n_i - p_i) per iteration. Nothing prevents the wire from
+    /// passing a wall.</summary>
+    /// <remarks>For a sphere's own contact n_i = n. For an element's, with d = x_{j+1} - x_j and t = (c -
+    /// x_j).d/|d|^2, n_i is the normal times 0.01 (1 - t) and 0.01 t for t below 0.5, and the two exchanged from 0.5
+    /// on (eq. 3.5 is not dimensionless as printed; the factor makes a percentage of it). The rule attracts, drags
+    /// sideways and puts the larger weight on the farther sphere beyond the middle; it stands here to be compared
+    /// with.</remarks>
+    internal sealed class ThesisContactResponse : IContactResponse
+    {
+        private const int ContactsPerSphere = 4;
+        private const double WeightScale = 0.01;
+        private readonly double[] _inverseMasses;
+        private readonly double _clearance;
+        private readonly double _gain;
+        private readonly int[] _sphere;
+        private readonly Vector3d[] _target;
+        private readonly Vector3d[] _moved;
+
+        /// <param name="state">The wire, with its final masses.</param>
+        /// <param name="wallCount">Walls of the scene.</param>
+        /// <param name="clearance">r + margin in units.</param>
+        /// <param name="gain">k_C, per iteration.</param>
+        public ThesisContactResponse(RodState state, int wallCount, double clearance, double gain)
+        {
+            int capacity = ContactsPerSphere * wallCount * state.SphereCount;    // what comes on top is left out
+            _inverseMasses = state.InverseMasses;
+            _clearance = clearance;
+            _gain = gain;
+            _sphere = new int[capacity];
+            _target = new Vector3d[capacity];
+            _moved = new Vector3d[capacity];
+        }
+
+        /// <inheritdoc/>
+        public int ContactCount { get; private set; }
+
+        /// <inheritdoc/>
+        public void Start(IContactSearch found, Vector3d[] from, Vector3d[] x)
+        {
+            ContactCount = 0;
+            for (int k = 0; k < found.Contacts.Count; k++)
+            {
+                ref readonly WireContact contact = ref found.Contacts[k];
+                if (contact.IsElement)
+                {
+                    AddElement(contact.Index, contact.Nearest, x);
+                }
+                else
+                {
+                    Add(contact.Index, contact.Nearest.Point, contact.Nearest.Normal);
+                }
+            }
+        }
+
+        /// <inheritdoc/>
+        public void Stop(StructList<WireContact> impacts) =>
+            throw new InvalidOperationException("the published rule has no swept test");
+
+        /// <inheritdoc/>
+        public void IterateStops(Vector3d[] x)
+        {
+        }
+
+        /// <inheritdoc/>
+        public void Iterate(Vector3d[] x)
+        {
+            for (int k = 0; k < ContactCount; k++)
+            {
+                Project(k, x);
+            }
+        }
+
+        /// <inheritdoc/>
+        public void SpheresOf(int k, out int first, out int last) => first = last = _sphere[k];
+
+        /// <inheritdoc/>
+        [MethodImpl(Compiled.AtOnce)]
+        public bool Project(int k, Vector3d[] x)
+        {
+            int i = _sphere[k];
+            Vector3d correction = _gain * (_target[k] - x[i]);
+            _moved[k] += correction;
+            x[i] += correction;
+            return true;
+        }
+
+        /// <inheritdoc/>
+        public void AddImpulses(Vector3d[] impulses)
+        {
+            for (int k = 0; k < ContactCount; k++)
+            {
+                impulses[_sphere[k]] += _moved[k] / _inverseMasses[_sphere[k]];
+            }
+        }
+
+        // One contact for each of its spheres.
+        private void AddElement(int element, in SurfaceContact contact, Vector3d[] x)
+        {
+            Vector3d d = x[element + 1] - x[element];
+            double t = Vector3d.Dot(contact.Point - x[element], d) / d.LengthSquared;
+            double first = WeightScale * (t < 0.5 ? 1.0 - t : t);
+            double second = WeightScale * (t < 0.5 ? t : 1.0 - t);
+            Add(element, contact.Point, first * contact.Normal);
+            Add(element + 1, contact.Point, second * contact.Normal);
+        }
+
+        private void Add(int sphere, in Vector3d c, in Vector3d weightedNormal)
+        {
+            if (ContactCount == _sphere.Length || _inverseMasses[sphere] == 0.0)
+            {
+                return;
+            }
+            _sphere[ContactCount] = sphere;
+            _target[ContactCount] = c + _clearance * weightedNormal;
+            _moved[ContactCount] = Vector3d.Zero;
+            ContactCount++;
+        }
+    }
+
+    /// <summary>Coulomb friction of pbd contacts, at the level of positions: in each iteration, after its normal
+    /// correction off the wall, a contact reverses the tangential displacement of its point, by at most mu times its
+    /// total normal correction.</summary>
+    /// <remarks>In a solve a contact's point is moved by P n along its normal, P the sum of its normal corrections, and
+    /// by t along the wall. Both are impulses of the wall, P/W and t/W times 1/dt, over the same inverse mass W of the
+    /// point. A wall with friction gives |t| &lt;= mu P (Coulomb): within that it brings the point back to where the
+    /// solve began, which is no slip, and beyond it pulls against the slip that is left, with |t| = mu P. An iteration
+    /// therefore asks for t - s, with s the motion along the wall since the solve began, t included; shortens that to
+    /// what t may be; and moves the point by the change of t. That is projected Gauss-Seidel on the total, not on each
+    /// correction: what an early iteration held too much is given back by a later one, and a contact that corrects in
+    /// small portions, as stiffness below 1 does, has in the end the friction of their sum. With pbd a force in the
+    /// wire is a correction in every iteration. Friction balances it only if it is applied likewise: in iteration i of
+    /// m, t may be mu P i/m. Given all at once it would be spent in the first iterations, and the wire would slip
+    /// without friction in those that are left: it creeps under less than mu times its weight. Past iteration m, where
+    /// a part is solved again, t may be mu P. A solve begins where a part of a step does. The parts of a step hold no
+    /// slip each, so none in the step, and their sums of t are at most mu times their sums of P. Turning about its own
+    /// axis costs a wire nothing.</remarks>
+    internal sealed class WallFriction
+    {
+        private readonly double _iterations;
+        private readonly double[] _coefficient;    // mu, per contact
+        private readonly int[] _done;              // i, per contact
+        private readonly Vector3d[] _taken;        // t, units, per contact
+
+        /// <param name="capacity">Contacts that fit.</param>
+        /// <param name="iterations">m of a solve.</param>
+        public WallFriction(int capacity, int iterations)
+        {
+            _iterations = Math.Max(1, iterations);
+            _coefficient = new double[capacity];
+            _done = new int[capacity];
+            _taken = new Vector3d[capacity];
+        }
+
+        /// <summary>Starts contact k without friction so far.</summary>
+        public void Add(int k, double coefficient)
+        {
+            _coefficient[k] = coefficient;
+            _done[k] = 0;
+            _taken[k] = Vector3d.Zero;
+        }
+
+        /// <summary>True where contact k has friction and a normal correction so far.</summary>
+        public bool HasFriction(int k, double correction) => correction > 0.0 && _coefficient[k] > 0.0;
+
+        /// <summary>t of contact k in units: how far friction has moved its point in this solve.</summary>
+        public Vector3d Taken(int k) => _taken[k];
+
+        /// <summary>Displacement of the point of contact k by friction in one iteration, units.</summary>
+        /// <param name="k">The contact.</param>
+        /// <param name="motion">Its point's motion since the solve began, units.</param>
+        /// <param name="normal">Its normal n.</param>
+        /// <param name="correction">P, units.</param>
+        public Vector3d Correct(int k, in Vector3d motion, in Vector3d normal, double correction)
+        {
+            Vector3d slip = motion - Vector3d.Dot(motion, normal) * normal;
+            Vector3d taken = _taken[k] - slip;
+            _done[k]++;
+            double most = _coefficient[k] * correction * Math.Min(1.0, _done[k] / _iterations);
+            double size = taken.Length;
+            if (size > most)
+            {
+                taken = (most / size) * taken;
+            }
+            Vector3d change = taken - _taken[k];
+            _taken[k] = taken;
+            return change;
+        }
+    }
 }

@@ -1,8 +1,81 @@
+using System;
+using System.Collections.Generic;
 using Guidewire.Core;
 using Newtonsoft.Json.Linq;
 
 namespace Guidewire.Io
 {
+    /// <summary>Makes keys of the parameter table, each of a kind.</summary>
+    internal static class Key
+    {
+        public static ValueEntry<double> Number(string key, string unit, NumberRange range, string help) =>
+            new ValueEntry<double>(key, unit, Kinds.Number(range), help);
+
+        public static ValueEntry<double?> OptionalNumber(string key, string unit, NumberRange range, string help) =>
+            new ValueEntry<double?>(key, unit, Kinds.OptionalNumber(range), help);
+
+        public static ValueEntry<double> NumberOr(string key, string unit, NumberRange range, string word,
+            string help) => new ValueEntry<double>(key, unit, Kinds.NumberOr(range, word), help);
+
+        public static ValueEntry<int> Whole(string key, string unit, int minimum, int maximum, string help) =>
+            new ValueEntry<int>(key, unit, Kinds.Whole(minimum, maximum), help);
+
+        public static ValueEntry<Vector3d> Vector(string key, string unit, bool mayBeZero, string help) =>
+            new ValueEntry<Vector3d>(key, unit, Kinds.Vector(mayBeZero), help);
+
+        public static ValueEntry<bool> Switch(string key, string help) => Of(Kinds.Switch, key, help);
+
+        public static ValueEntry<bool?> OptionalSwitch(string key, string help) =>
+            Of(Kinds.OptionalSwitch, key, help);
+
+        public static ValueEntry<string> Text(string key, string help) => Of(Kinds.Text, key, help);
+
+        public static ValueEntry<string> Axes(string key, string help) => Of(Kinds.Axes, key, help);
+
+        public static ValueEntry<JToken?> End(string key, string help) => Of(Kinds.End, key, help);
+
+        public static ValueEntry<JToken?> Json(string key, JTokenType type, string allowed, string help) =>
+            Of(Kinds.Json(type, allowed), key, help);
+
+        public static ValueEntry<T> Choice<T>(string key, string help, params (string Old, string New)[] older)
+            where T : struct, Enum => Of(Kinds.Choice<T>(older), key, help);
+
+        public static ValueEntry<T> Of<T>(Kind<T> kind, string key, string help) =>
+            new ValueEntry<T>(key, "", kind, help);
+    }
+
+    /// <summary>The methods that take a key.</summary>
+    internal static class Takers
+    {
+        /// <summary>Every method.</summary>
+        public static IReadOnlyList<Solver> All { get; } = Where(method => true);
+
+        /// <summary>Those whose wire has a stiffness per iteration.</summary>
+        public static IReadOnlyList<Solver> Pbd { get; } = Where(method => !method.TakesMaterial);
+
+        /// <summary>Those whose wire is a material.</summary>
+        public static IReadOnlyList<Solver> Material { get; } = Where(method => method.TakesMaterial);
+
+        /// <summary>Those that meet walls.</summary>
+        public static IReadOnlyList<Solver> Walls { get; } = Where(method => method.MeetsWalls);
+
+        /// <summary>Gives these methods.</summary>
+        public static IReadOnlyList<Solver> Only(params Solver[] methods) => methods;
+
+        private static List<Solver> Where(Predicate<MethodTraits> takes)
+        {
+            var methods = new List<Solver>();
+            foreach (MethodTraits method in MethodTable.All)
+            {
+                if (takes(method))
+                {
+                    methods.Add(method.Solver);
+                }
+            }
+            return methods;
+        }
+    }
+
     /// <summary>The keys of group "scene": what is simulated.</summary>
     internal static class SceneEntries
     {
@@ -115,5 +188,76 @@ namespace Guidewire.Io
             Key.Vector("rotation", "degrees", true, "Euler angles of the vessel, about z, then x, then y")
                 .With(Takers.Walls),
         });
+    }
+
+    /// <summary>The keys of group "material": the wire as a material.</summary>
+    internal static class MaterialEntries
+    {
+        /// <summary>The group, a part of the parameter table.</summary>
+        public static ParameterGroup Group { get; } = new ParameterGroup(
+            "material", "the wire as a material", p => p.Simulation.Material, new ParameterEntry[]
+        {
+            Key.Text(InstrumentLayer.Key,
+                "name of a file in the folder instruments beside this file or in the program's; it stands for keys of "
+                + "the wire (docs/instruments.md)")
+                .OnlyWith(Takers.Material),
+            Key.Number("youngsModulus", "Pa", NumberRange.Positive, "E"),
+            Key.Number("shearModulus", "Pa", NumberRange.Positive, "G"),
+            Key.Number("density", "kg/m^3", NumberRange.Positive, "rho; the wire's mass follows from it"),
+            Key.Number("wireRadius", "m", NumberRange.Positive, "radius of the wire as a material"),
+            Key.Number("innerRadius", "m", NumberRange.NotNegative,
+                "inner radius of a hollow wire, less than wireRadius; 0 for a solid wire"),
+            Key.OptionalNumber("coreDiameter", "m", NumberRange.Positive,
+                "diameter of the thickest solid part, the core or the wire of a coil, of which strains are taken; "
+                + "null: "
+                + "that of the wire"),
+            Key.Choice<CoreMaterial>("material",
+                "material of the core, which gives way beyond its elastic range (docs/materials.md); sets E, G and rho "
+                + "where they are not given")
+                .OnlyWith(Takers.Only(Solver.Direct)),
+            Key.Of(Kinds.Optional(WireKinds.Plateau), "plateau",
+                "plateau of a superelastic core by numbers; null: none")
+                .OnlyWith(Takers.Only(Solver.Direct)),
+            Key.OptionalNumber("yieldStress", "Pa", NumberRange.Positive,
+                "stress at which the core yields and keeps a bend; null: none")
+                .OnlyWith(Takers.Only(Solver.Direct)),
+            Key.OptionalNumber("hardening", "Pa", NumberRange.NotNegative,
+                "slope of the stress over the core's own strain beyond plateau or yield; null: E/1000")
+                .OnlyWith(Takers.Only(Solver.Direct)),
+            Key.Whole("fibres", "", 0, 16,
+                "rings of fibres in a section with such a law, each of 4 (rings - 1) fibres; 0: 4 to 7 by material")
+                .OnlyWith(Takers.Only(Solver.Direct)),
+            Key.Of(Kinds.Optional(WireKinds.Shaped), "shaped",
+                "bend put into the wire over a mandrel before the run, towards -d2; spring-back is the core's law")
+                .OnlyWith(Takers.Only(Solver.Direct)),
+            Key.Number("shearFactor", "", NumberRange.Positive,
+                "shear correction factor of GA: 0.9 for a round wire, about 0.5 for a thin-walled tube"),
+            Key.OptionalNumber("bendingStiffness", "N m^2", NumberRange.Positive,
+                "EI of the whole wire, which determines E instead of youngsModulus; a section of another material or "
+                + "radius has its own"),
+            Key.OptionalNumber("torsionalStiffness", "N m^2", NumberRange.Positive,
+                "GJ of the whole wire, which determines G instead of shearModulus"),
+            Key.OptionalNumber("axialStiffness", "N", NumberRange.Positive,
+                "EA of the whole wire, instead of the value from E and the radius, as for a coiled wire; EI is "
+                    + "unchanged"),
+            Key.OptionalNumber("massPerLength", "kg/m", NumberRange.Positive,
+                "rho A of the whole wire, which determines rho instead of density"),
+            Key.Vector("restCurvature", "rad/m", true, "curvature about d1 and d2 and twist about d3 at rest"),
+            Key.Of(WireKinds.Sections, "wireSections",
+                "sections with their own material, rest curvature or elements, such as a soft, bent tip; stiffness and "
+                + "mass given directly replace the material's").In(nameof(MaterialParameters.Sections)),
+            Key.Number("massDamping", "1/s", NumberRange.NotNegative,
+                "a in the force -a M v: a mode of angular frequency w has the damping ratio a/(2 w) at any timeStep"),
+            Key.Number("materialDamping", "s", NumberRange.NotNegative,
+                "b in the stress b K times the strain rate (Kelvin-Voigt): damping ratio b w/2 at any timeStep")
+                .OnlyWith(Takers.Only(Solver.Direct)),
+            Key.Choice<ClampRule>("clampRule",
+                "weights of the joints at a clamp: order 4 under transverse loads, order 2 (exact for an arc), order "
+                + "1"),
+            Key.Choice<MassRule>("massRule",
+                "mass matrix; xpbd and explicit take \"consistent\" as \"lumped\""),
+            Key.Choice<BendLaw>("bendLaw", "couple of a joint: K times the angle, or K sin(angle)"),
+        },
+            Takers.Material);
     }
 }
