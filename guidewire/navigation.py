@@ -32,7 +32,6 @@ from guidewire.prepare import DOOR, PreparationError
 from guidewire.runs import checking
 from guidewire.runs.whole_files import write_whole
 from guidewire.sessions.session import LumenPlace, Session, SessionError
-from guidewire.sessions.steered import Steered, exact_push, exact_turn
 
 DRIVES, SCENE = ("drive.csv", "drive-catheter.csv", "drive-catheter-2.csv"), "steered.json"
 _CHUNK = 4.0  # mm pushed between two looks at the tip
@@ -68,16 +67,16 @@ _TIPS = (None, Tip(45.0, 5.0), Tip(105.0, 30.0), Tip(70.0, 10.0), Tip(120.0, 10.
 @dataclass(frozen=True)
 class Found:
     """Whether the target was reached, the attempts at wrong branches, the tip's farthest place on the path to the
-    target and that path's length, mm; the scene's parameters with the tip, calls of the session: hub, push (units) and
-    turn (rad) in each step, and their number; what each hub steered; lines on the catheters; why the target is likely
-    not to be reached; parameters in place of the scene's."""
+    target and that path's length, mm; the scene's parameters with the tip; a drive table for each hub, and their steps;
+    lines on the catheters; why the target is likely not to be reached; parameters in place of the scene's."""
 
     is_reached: bool
     attempts: int
     farthest: float
     length: float
     asked: dict[str, Any]
-    hubs: list[Steered]
+    tables: list[str]
+    steps: int
     tip: Tip | None = None
     catheters: tuple[str, ...] = ()
     reason: str = ""
@@ -209,9 +208,8 @@ class _Search:
         anatomy = json.loads(Path(session.parameters["vessel"]["anatomy"]).read_text(encoding="utf-8"))
         self.route = Route(described["target"], anatomy, self._unit)
         dt = asked["timeStep"]
-        metres = session.parameters["metresPerUnit"]
         self._steps = max(1, round(_CHUNK / (1e3 * asked["insertionSpeed"] * dt)))
-        self._push = exact_push(_CHUNK / self._unit / self._steps, metres)
+        self._push = _CHUNK / self._unit / self._steps
         self._longest = self._unit * asked["guidewireLength"] - 40.0
         self._random = np.random.default_rng(_SEED)
         self._first = _Start(session.save(), 0.0, 0.0, 0.0, 0.0, None, None)
@@ -254,7 +252,7 @@ class _Search:
         """After a push by a few millimetres, and why the attempt ends there: "reached", or a failure, or nothing."""
         along, is_wrong, is_outside, is_reached = None, False, False, False
         if self._session.state.outcome is None:  # a turn may have ended the run
-            at = self._made(at, _Call(0, self._push, exact_turn(_CHUNK * spin / self._steps), self._steps))
+            at = self._made(at, _Call(0, self._push, _CHUNK * spin / self._steps, self._steps))
             while self._session.state.outcome is None and self._gap() > _BEHIND + _CHUNK:
                 at = self._made(at, _Call(1, self._push, 0.0, self._steps))
             place = self._session.state.place
@@ -283,7 +281,7 @@ class _Search:
     def _turned(self, at: _Start, angle: float) -> _Start:
         """Return the same place with the hub turned; the attempt's progress is counted anew."""
         steps = max(1, round(abs(angle) / _TURN))
-        at = self._made(at, _Call(0, 0.0, exact_turn(angle / steps), steps))
+        at = self._made(at, _Call(0, 0.0, angle / steps, steps))
         return replace(at, best=at.along, since=at.moved)
 
     def _again(self, calls: list[_Call]) -> list[_Start | None]:
@@ -333,28 +331,24 @@ def steer(scene: Path, most_attempts: int = 200, tell: Callable[[str], None] = l
     """
     asked = with_tip(json.loads(scene.read_text(encoding="utf-8")) | changes, tip)
     bent = {} if tip is None else {"wireSections": asked["wireSections"]}
-    with Session(scene, hand=True, **(changes | bent)) as session:
+    with Session(scene, hand=True, records_steering=True, **(changes | bent)) as session:
         asked = session.parameters | {"insertionSpeed": asked["insertionSpeed"]}
         search = _Search(session, asked, tell, time.monotonic() + 60.0 * minutes)
         found = search.find(most_attempts)
-        hubs = [Steered(session.parameters) for _ in range(1 + len(asked.get("catheters") or []))]
-        lines: list[str] = []
+        tables: list[str] = []
+        steps, lines = 0, ()
         if found is not None:
             session.reset()
             for call in found.calls():
-                state = session.step(push=call.push * call.steps, turn=call.turn * call.steps, steps=call.steps,
-                                     hub=call.hub)
-                for k, steered in enumerate(hubs):
-                    own = call if k == call.hub else _Call(k, 0.0, 0.0, call.steps)
-                    stopped = None if len(hubs) == 1 else (state.hub if k == 0 else state.catheters[k - 1]).insertion
-                    steered.add(own.push, own.turn, call.steps, state, stopped)
-            lines = [f"catheter {k}: tip {'in the lumen' if one.place.is_inside else 'outside'}, "
-                     f"{search._unit * one.place.left:.0f} mm before the target"
-                     + (", reached" if one.place.is_at_target else "")
-                     for k, one in enumerate(session.state.catheters, 1) if one.place is not None]
+                session.step(push=call.push * call.steps, turn=call.turn * call.steps, steps=call.steps, hub=call.hub)
+            tables, steps = session.drive_tables(), session.state.step
+            lines = tuple(f"catheter {k}: tip {'in the lumen' if one.place.is_inside else 'outside'}, "
+                          f"{search._unit * one.place.left:.0f} mm before the target"
+                          + (", reached" if one.place.is_at_target else "")
+                          for k, one in enumerate(session.state.catheters, 1) if one.place is not None)
         wire = search._unit * asked["wireRadius"]
-        return Found(found is not None, search.attempts, search.farthest, search.route.length, asked, hubs, tip,
-                     tuple(lines), search.route.reason(search.farthest, wire), changes)
+        return Found(found is not None, search.attempts, search.farthest, search.route.length, asked, tables, steps,
+                     tip, lines, search.route.reason(search.farthest, wire), changes)
 
 
 def other_inlets(asked: Mapping[str, Any], anatomy: Mapping[str, Any]) -> list[dict[str, Any]]:
@@ -388,13 +382,13 @@ def other_inlets(asked: Mapping[str, Any], anatomy: Mapping[str, Any]) -> list[d
 def write(scene: Path, found: Found) -> Path:
     """Return the drives and a scene that follows them, beside the scene given; returns the new scene's file."""
     folder = scene.parent
-    for name, steered in zip(DRIVES, found.hubs):
-        write_whole(folder / name, steered.to_csv())
+    for name, table in zip(DRIVES, found.tables):
+        write_whole(folder / name, table)
     asked = with_tip(json.loads(scene.read_text(encoding="utf-8")) | found.changes, found.tip)
     asked.pop("insertionSpeed", None)
     catheters = [{key: value for key, value in one.items() if key not in ("insertionSpeed", "rotationSpeed")}
                  | {"driveFile": name} for one, name in zip(asked.get("catheters") or [], DRIVES[1:])]
-    asked |= {"driveFile": DRIVES[0], "maxSimulationSteps": found.hubs[0].steps}
+    asked |= {"driveFile": DRIVES[0], "maxSimulationSteps": found.steps}
     write_whole(folder / SCENE, json.dumps(asked | ({"catheters": catheters} if catheters else {}), indent=2) + "\n")
     return folder / SCENE
 

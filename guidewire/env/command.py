@@ -169,7 +169,7 @@ def _demonstrate(task: str, policy: str, file: Path, episodes: int, seed: int) -
 
 def _steer(name: str, file: Path, seed: int | None, opens: bool, build_runner: Callable[[], list[str]]) -> int:
     from guidewire.viewer.command import serve_scene
-    from guidewire.viewer.held import HeldInstruments
+    from guidewire.viewer.held import SteeredCalls
 
     task = find_task(name)
     if file.suffix != ".json" or not file.resolve().parent.is_dir():
@@ -180,20 +180,15 @@ def _steer(name: str, file: Path, seed: int | None, opens: bool, build_runner: C
         environment.reset(options=options)
         # The page lets it go on without end; the file's own drive, which nobody follows, stays within the wire.
         scene: dict[str, Any] = {**environment.scene, "maxSimulationSteps": 1}
-    instruments = HeldInstruments()
+    steered = SteeredCalls()
     with tempfile.TemporaryDirectory(prefix="guidewire-") as folder:
         path = Path(folder) / f"{task.name}.json"
         path.write_text(json.dumps(scene), encoding="utf-8")
-        serve_scene(path, build_runner, instruments, opens)
-    steered = instruments.steered[0]
+        serve_scene(path, build_runner, steered, opens)
     if steered.problem or steered.state is None:
         print("nothing recorded: " + (steered.problem or "no step was made"))
         return 0
-    calls = steered.calls
-    if len(instruments.steered) > 1:    # each has the same calls, of its own hub
-        calls = [([push for push, _, _ in of_all], [turn for _, turn, _ in of_all], of_all[0][2])
-                 for of_all in zip(*(one.calls for one in instruments.steered))]
-    RecordedDrive(task.name, options, calls, digest_of(steered.state), "by keys, through the page").save(file)
-    print(f"recorded: {file}, {len(calls)} calls; "
+    RecordedDrive(task.name, options, steered.made, digest_of(steered.state), "by keys, through the page").save(file)
+    print(f"recorded: {file}, {len(steered.made)} calls; "
           f"'{DOOR} tasks {name} --replay {file}' does them again")
     return 0

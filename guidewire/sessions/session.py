@@ -45,6 +45,8 @@ class Session:
     hand : whether `push` and `turn` of `step` move the first sphere, in place of the file's drive. None: where the
         wire is gains; a wire with a material has its file's drive.
     native : whether the native library simulates, in this process. None: where it has been built from these sources.
+    records_steering : whether `drive_tables` gives what a hand has steered; pushes and turns are then rounded, by less
+        than 2e-15 m and 5e-13 rad a step.
     overrides : parameters by key, overriding the file's: numbers, texts, lists, dicts, numpy arrays; parts of them
         as `**{"vessel.radius": 4.0}`.
 
@@ -54,6 +56,7 @@ class Session:
     parameters : every effective value by key.
     hand : whether a hand moves the first sphere.
     hubs : how many there are, the wire's and those of the catheters.
+    unrecorded : why no table says what was steered, in one phrase; empty where one does.
 
     Raises
     ------
@@ -66,7 +69,7 @@ class Session:
     """
 
     def __init__(self, file: str | Path | None = None, hand: bool | None = None, native: bool | None = None,
-                 **overrides: Any) -> None:
+                 records_steering: bool = False, **overrides: Any) -> None:
         self._host: Library | Process | None = host_of(native)
         # Also at the interpreter's exit, before modules go; what holds an unread state holds this session too.
         self._finish = weakref.finalize(self, _end, self._host, os.getpid())
@@ -76,6 +79,8 @@ class Session:
         self._newest: Callable[[], State | None] = lambda: None    # while somebody has it, the same
         self._head = (0, 0.0, 0.0)    # of the newest: steps, time, prediction error
         self._layout: dict[str, tuple[int, ...]] = {}
+        self._records_steering = records_steering
+        self.unrecorded = ""
         try:
             self._open(file, hand, overrides)
         except BaseException:
@@ -165,7 +170,7 @@ class Session:
             return self._open(file, hand, overrides)
 
     def _open(self, file: str | Path | None, hand: bool | None, overrides: Mapping[str, Any]) -> State:
-        asked: dict[str, Any] = {"set": overrides, "hand": hand}
+        asked: dict[str, Any] = {"set": overrides, "hand": hand, "record": self._records_steering}
         if file is not None:
             asked["parameters"] = str(file)
         answer = self._ask("open", **asked)
@@ -214,6 +219,16 @@ class Session:
             answer = self._ask(what, set=parameters, **more)
             self.parameters = answer["effective"]
             return self._take(answer)
+
+    def drive_tables(self) -> list[str]:
+        """What was steered since the start, as a table for `driveFile` of each hub, the wire's first. Runs that these
+        drive have the same bits.
+
+        Raises
+        ------
+        SessionError : no table says it; the line is `unrecorded`.
+        """
+        return self._ask("drive")["tables"]
 
     def save(self) -> bytes:
         """All that the next steps depend on, for `restore` here or in another session of the same parameters."""
@@ -438,6 +453,7 @@ class Session:
                 raise
 
     def _take(self, answer: Mapping[str, Any]) -> State:
+        self.unrecorded = answer.get("unrecorded", self.unrecorded)
         state = self._state = state_of(answer, self._laid_out(answer), self)
         self._newest = weakref.ref(state)
         return state

@@ -19,7 +19,7 @@ from guidewire.runs.whole_files import write_whole
 from guidewire.sessions.session import SessionError, session_of
 from guidewire.viewer.anatomy import read_vessel
 from guidewire.viewer.export import to_html
-from guidewire.viewer.held import HeldInstruments
+from guidewire.viewer.held import SteeredCalls
 from guidewire.viewer.live import LiveRun
 from guidewire.viewer.parts import three
 from guidewire.viewer.recording import read_recording
@@ -97,18 +97,18 @@ def _read(folder: Path, frames: int, exact: bool) -> bytes:
     return read_recording(run, [], frames, {}, lambda _: [], curve).to_bytes(exact)
 
 
-def serve_scene(file: Path, build_runner: Callable[[], list[str]], instruments: HeldInstruments, opens: bool) -> None:
+def serve_scene(file: Path, build_runner: Callable[[], list[str]], calls: SteeredCalls, opens: bool) -> None:
     """Show one scene, interactively, and take down how it is steered."""
-    _serve(Server(page_files(three(_say)), (), _live(file, build_runner, instruments)), opens)
+    _serve(Server(page_files(three(_say)), (), _live(file, build_runner, calls)), opens)
 
 
-def _live(file: Path, build_runner: Callable[[], list[str]], instruments: HeldInstruments | None = None) -> LiveRun:
+def _live(file: Path, build_runner: Callable[[], list[str]], calls: SteeredCalls | None = None) -> LiveRun:
     command = build_runner()
     keys = read_key_table(command)
-    own = {} if instruments else {path.name: path for path in sorted((ROOT / "params").glob("*.json"))}
+    own = {} if calls is not None else {path.name: path for path in sorted((ROOT / "params").glob("*.json"))}
     first = file.name if own.get(file.name, file).resolve() == file.resolve() else str(file)
     run = LiveRun({first: file, **own}, first, {name: list(key.words) for name, key in keys.items() if key.words},
-                  instruments)
+                  calls)
     try:
         run.open()
     except SessionError as error:

@@ -27,9 +27,8 @@ from aiohttp import WSCloseCode, WSMsgType, web
 from guidewire.logs.walls import name_walls, soft_walls
 from guidewire.sessions.agent import Agent
 from guidewire.sessions.session import Session, SessionError, State
-from guidewire.sessions.steered import RULES as STEERED
 from guidewire.viewer.cases import title_of
-from guidewire.viewer.held import HeldInstruments
+from guidewire.viewer.held import HeldInstruments, Motion, SteeredCalls
 from guidewire.viewer.recording import (
     ENERGIES, HUB, Channel, Recording, ending_of, facts_of, largest_shown, lumen_of, make_channels, radius_of,
     read_off, sheath_of, units_of,
@@ -63,21 +62,21 @@ def rules(choices: Mapping[str, list[str]]) -> dict[str, Any]:
         "pushSpeed": PUSH_SPEED, "turnSpeed": TURN_SPEED, "paces": PACES, "frame": _FRAME, "longest": _LONGEST,
         "behind": _BEHIND, "longestWait": _LONGEST_WAIT, "patience": _PATIENCE, "mostInFlight": MOST_IN_FLIGHT,
         "smoothing": _SMOOTHING, "endless": ENDLESS, "changed": _CHANGED, "choices": choices, "hub": HUB,
-        "energies": ENERGIES, "steered": STEERED,
+        "energies": ENERGIES,
     }
 
 
-def start(scene: Path, by_hand: bool, named: Mapping[str, str]) -> Session:
+def start(scene: Path, by_hand: bool, named: Mapping[str, str], records_steering: bool = True) -> Session:
     """Return a session that is steered without end, or the file's own run where that cannot be or is not asked for."""
     if by_hand:
         try:
-            return Session(scene, hand=True, native=False, **ENDLESS, **named)
+            return Session(scene, hand=True, native=False, records_steering=records_steering, **ENDLESS, **named)
         except SessionError:
             pass  # what is wrong with the file itself is said below
-    return Session(scene, hand=False, native=False, **named)
+    return Session(scene, hand=False, native=False, records_steering=records_steering, **named)
 
 
-def step(session: Session, moves: Sequence[tuple[float, float]], steps: int, hub: int) -> State:
+def step(session: Session, moves: Motion, steps: int, hub: int) -> State:
     """Make steps with this push (units) and turn (rad) of each hub in each; where one hand rests, of the held one."""
     if all(move == REST for k, move in enumerate(moves) if k != hub):
         push, turn = moves[hub]
@@ -230,15 +229,16 @@ class LiveRun:
     scenes : name to parameter file; what a page may open.
     first : name of the one that is opened at first.
     choices : name to words, of the parameters that are words.
-    instruments : takes down what is steered; it may be read when the run has ended.
+    calls : takes down what is steered, in place of the session; it may be read when the run has ended.
     """
 
     def __init__(self, scenes: Mapping[str, Path], first: str, choices: Mapping[str, list[str]],
-                 instruments: HeldInstruments | None = None) -> None:
+                 calls: SteeredCalls | None = None) -> None:
         self._scenes = scenes
         self._scene = first
         self._choices = choices
-        self._instruments = instruments or HeldInstruments()
+        self._instruments = HeldInstruments()
+        self._calls = calls
         self._pages: list[Page] = []
         self._hand: Page | None = None
         self._session: Session | None = None
@@ -293,9 +293,9 @@ class LiveRun:
             mark = self._mark
             instruments = self._instruments
             hub = instruments.held
-            hand, other = [[PUSH_SPEED * push * dt, TURN_SPEED * turn * dt] for push, turn in self._hands]
-            hand[1] += instruments.towards_aim(session.state, steps, TURN_SPEED * dt)
-            moves = instruments.moves(hand, other)
+            (push, turn), other = [(PUSH_SPEED * push * dt, TURN_SPEED * turn * dt) for push, turn in self._hands]
+            turn += instruments.towards_aim(session.state, steps, TURN_SPEED * dt)
+            moves = instruments.motion(*(((push, turn), other) if session.hand else (REST, REST)))
             began = time.monotonic()
             try:
                 state = await self._in_thread(lambda: step(session, moves, steps, hub))
@@ -303,8 +303,8 @@ class LiveRun:
                     agent = await self._in_thread(session.agent)
                     if self._session is session:
                         await self._tell_agent(agent)
-                if self._session is session:
-                    instruments.add_all(moves, steps, state)
+                if self._session is session and self._calls is not None:
+                    self._calls.add(moves, steps, state)
             except SessionError as error:
                 if self._session is session:
                     await self._fail(error)
@@ -321,13 +321,13 @@ class LiveRun:
             due = min(max(due + steps * dt / self._pace, now - _BEHIND), now + _LONGEST_WAIT)
             await self._wait_until(due)
 
-    def steered_csv(self, number: int) -> str:
+    async def steered_csv(self, number: int) -> str:
         """What was steered of an instrument since the start, as a drive table; raises HTTPConflict, with the reason,
         where none says it, and HTTPNotFound where there is no such instrument."""
-        if self._instruments.problem:
-            raise web.HTTPConflict(text=self._instruments.problem)
         try:
-            return self._instruments.to_csv(number)
+            return (await self._in_thread(self._require_session().drive_tables))[number]
+        except SessionError as error:
+            raise web.HTTPConflict(text=str(error)) from error
         except IndexError as error:
             raise web.HTTPNotFound() from error
 
@@ -452,7 +452,8 @@ class LiveRun:
             return
         await self._in_thread(self._frames.exchange)
         self._named = {**self._named, key: name}
-        self._instruments.exchange(self._frames.described, session.parameters)
+        self._instruments.exchange(self._frames.described)
+        self._spoil("an instrument was exchanged within the run")
         self._exchanges.append(f"at {state.time:.1f} s {name} in place of {former}")
         self._opened += 1
         self._cost = 0.0
@@ -503,13 +504,13 @@ class LiveRun:
                 raise
             self._problem = refusal(key, value, str(error))  # nothing has changed, and the wire goes on
             return
-        self._instruments.invalidate(f"{key} was changed within the run: start anew to record")
+        self._spoil(f"{key} was changed within the run")
         self._cost = 0.0
 
     def _open(self, scene: str, by_hand: bool = True, named: Mapping[str, str] | None = None) -> None:
         with warnings.catch_warnings(record=True) as said:
             warnings.simplefilter("always")
-            session = start(self._scenes[scene], by_hand, named or {})
+            session = start(self._scenes[scene], by_hand, named or {}, self._calls is None)
         self._close_session()
         self._session, self._scene, self._named = session, scene, dict(named or {})
         self._frames = LiveFrames(session, title_of(self._scenes[scene]),
@@ -523,7 +524,13 @@ class LiveRun:
         self._agent = None
         self._exchanges = []
         self._opened += 1
-        self._instruments.begin(session, self._frames.described, held)
+        self._instruments = HeldInstruments(self._frames.described, held)
+        if self._calls is not None:
+            self._calls.begin()
+
+    def _spoil(self, why: str) -> None:
+        if self._calls is not None:
+            self._calls.problem = self._calls.problem or why
 
     def _require_session(self) -> Session:
         if self._session is None:
@@ -579,9 +586,14 @@ class LiveRun:
             "choices": {key: words for key, words in self._choices.items() if key in values},
             "pace": self._pace, "paces": PACES,
             "exchanges": self._exchanges, "exchangesAsked": self._exchanges_asked,
-            "steered": self._instruments.problem, **self._instruments.status(),
+            "steered": self._why_unsaved(), **self._instruments.status(),
             "outcome": "" if state is None else ending_of(state.outcome, state.reliable, state.reason),
         }
+
+    def _why_unsaved(self) -> str:
+        if self._session is None:
+            return "no run is open"
+        return self._session.unrecorded if self._calls is None else "it is recorded as an episode"
 
     async def _fail(self, error: SessionError) -> None:
         """Say what the runner could not do. One that is gone is let go of."""

@@ -149,7 +149,7 @@ class Server:
             return web.Response(text=json.dumps(shown), content_type="application/json")
         steered = re.fullmatch(r"steered(?:-(\d))?\.csv", name)
         if steered is not None and self._live is not None:
-            return web.Response(text=self._live.steered_csv(int(steered.group(1) or 0)), content_type="text/csv")
+            return web.Response(text=await self._live.steered_csv(int(steered.group(1) or 0)), content_type="text/csv")
         if name == "live" and self._live is not None:
             return await self._join(request, self._live)
         recordings = self._recordings if self._live is None else [await self._live.recording()]

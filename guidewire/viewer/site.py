@@ -2,7 +2,7 @@
 
     index.html, boot.js, style.css, page.json.gz    the page; its modules are packed
     show.json, pictures/                            scenes, and what the page shares with guidewire/viewer/live.py
-    worker.js, rims.js, run.js, channels.js, steered.js    what steps a scene in the browser
+    worker.js, rims.js, run.js, channels.js    what steps a scene in the browser
     framework/                                      the core for browsers, packed but for three modules
     texts.json.gz, files/                           parameter files, tables, instruments; meshes
     LICENSE, THIRD-PARTY-NOTICES.md                 of the program, and of what is in the folder beside it
@@ -35,7 +35,7 @@ from guidewire.viewer.live import rules
 from guidewire.viewer.parts import PAGE, three
 from guidewire.viewer.server import page_files
 
-_WORKER = ("worker.js", "rims.js", "run.js", "channels.js", "steered.js")
+_WORKER = ("worker.js", "rims.js", "run.js", "channels.js")
 _PLAIN = (".js",)    # of the framework: a browser loads modules as they are
 _SHOW = "show.json"
 _NOTICES = ("LICENSE", "THIRD-PARTY-NOTICES.md")

@@ -21,6 +21,7 @@ namespace Guidewire.Cli
             Log = (bool?)json["log"] ?? true;
             Session = (string?)json["session"];
             Hand = (bool?)json["hand"];
+            Record = (bool?)json["record"] ?? false;
             Steps = (int?)json["steps"] ?? 1;
             Pushes = (json["push"] as JArray)?.Values<double>().ToArray();
             Turns = (json["turn"] as JArray)?.Values<double>().ToArray();
@@ -67,6 +68,9 @@ namespace Guidewire.Cli
         /// <summary>Whether requests steer it in place of the drive; null: wherever the method may be
         /// steered.</summary>
         public bool? Hand { get; }
+
+        /// <summary>Whether the session records how it is steered, for drive tables.</summary>
+        public bool Record { get; }
 
         /// <summary>Steps to make.</summary>
         public int Steps { get; }
@@ -135,6 +139,7 @@ namespace Guidewire.Cli
             Check(json, "set", "an object of parameters", JTokenType.Object);
             Check(json, "session", "a text", JTokenType.String);
             Check(json, "hand", "true or false", JTokenType.Boolean);
+            Check(json, "record", "true or false", JTokenType.Boolean);
             Check(json, "snapshot", "base64 as of \"save\"", JTokenType.String);
             Check(json, "view", "an object", JTokenType.Object);
             Check(json, "positions", "base64 of doubles", JTokenType.String);

@@ -42,6 +42,10 @@ namespace Guidewire.Cli
                 case "open":
                     _pictures = null;
                     _session = SimulationSession.Open(request.ParameterFile, request.Overrides, request.Hand, _mesh);
+                    if (request.Record)
+                    {
+                        _session.RecordSteering();
+                    }
                     answer["hand"] = _session.IsSteered;
                     answer["warnings"] = new JArray(_session.Warnings);
                     answer["effective"] = _session.EffectiveParameters;
@@ -63,6 +67,9 @@ namespace Guidewire.Cli
                     return;
                 case "places":
                     TakePlaces(request, answer);
+                    return;
+                case "drive":
+                    answer["tables"] = new JArray(Opened().DriveTables());
                     return;
                 case "change":
                     _pictures = null;
@@ -89,9 +96,13 @@ namespace Guidewire.Cli
                 default:
                     throw new ParameterException("request", "session", "\"" + request.Session + "\"",
                         "one of \"open\", \"step\", \"state\", \"picture\", \"describe\", \"places\", \"walls\","
-                            + " \"agent\", \"change\", \"exchange\", \"reset\", \"save\", \"restore\"");
+                            + " \"agent\", \"drive\", \"change\", \"exchange\", \"reset\", \"save\", \"restore\"");
             }
-            State(_session!.Simulation, answer);
+            if (_session!.Unrecorded is string why && request.Session != "step")
+            {
+                answer["unrecorded"] = why;
+            }
+            State(_session.Simulation, answer);
         }
 
         /// <summary>The session as it is now.</summary>

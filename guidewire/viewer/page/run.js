@@ -12,7 +12,6 @@
  * @property {() => Uint8Array} walls
  */
 import { factsOf, largestShown, makeChannels, radiusOf, sheathOf } from "./channels.js";
-import { HeldInstruments } from "./steered.js";
 
 const HEAD = 4; // numbers before the arrays of a step
 const ARRAYS = /^(positions|orientations|catheter|lumen|contactForces|strandForces|wallDisplacements)\d+$|^(positions|velocities|orientations|angularVelocities|contactForces|strandForces|wallDisplacements|reaction|hub|lumen|vesselPhase|vesselDisplacement|strain|force|curvature|couple|energy)$/;
@@ -55,6 +54,8 @@ export class Run {
     this._mark = this._cost = this._onTheWay = this._due = 0;
     this._pace = 1;
     this._problem = this._outcome = "";
+    /** Why what was steered cannot be saved; empty where it can. */
+    this._unrecorded = "";
     /** @type {Message} */
     this._named = {};
     /** Of instruments in this run, in words. @type {string[]} */
@@ -85,9 +86,7 @@ export class Run {
 
   /** What was steered of each instrument, as drive tables. Throws where no table says it. */
   tables() {
-    const problem = this._held ? this._held.steered[0].problem : "no run is open";
-    if (problem) throw new Refusal(problem);
-    return this._held?.steered.map((one) => one.toCsv());
+    return this._program.ask({ session: "drive" }).tables;
   }
 
   /** @param {Message} message */
@@ -146,7 +145,7 @@ export class Run {
 
   /** @param {string} scene @param {boolean} byHand @param {Message} named */
   _open(scene, byHand, named) {
-    const open = (/** @type {boolean} */ hand) => this._program.ask({ session: "open", parameters: scene, hand,
+    const open = (/** @type {boolean} */ hand) => this._program.ask({ session: "open", parameters: scene, hand, record: true,
       set: { ...(hand ? this._rules.endless : {}), ...named } });
     let answer;
     try {
@@ -171,8 +170,7 @@ export class Run {
     this._problem = "";
     this._isAgent = false;
     [this._isPaused, this._isWaiting] = [true, this._isSteered]; // nothing is lost while somebody reads
-    this._held = new HeldInstruments(this._rules.steered, this._parameters ?? {}, this._described.instruments,
-      this._isSteered, held);
+    this._held = new HeldInstruments(this._described.instruments, held);
     this._exchanges = [];
     this._largest = [];
     this._present(answer);
@@ -189,7 +187,7 @@ export class Run {
       this._parameters = answer.effective;
       this._named = { ...this._named, [key]: name };
       this._described = this._program.ask({ session: "describe" });
-      this._held?.exchange(this._described.instruments, answer.effective);
+      this._held?.exchange(this._described.instruments);
       this._exchanges.push(`at ${answer.time.toFixed(1)} s ${name} in place of ${title}`);
       this._cost = 0;
       this._present(answer);
@@ -220,7 +218,6 @@ export class Run {
       const answer = this._program.ask({ session: "change", set: { [key]: value } });
       this._parameters = answer.effective;
       this._take(answer);
-      this._held?.invalidate(`${key} was changed within the run: start anew to record`);
       this._cost = 0;
     } catch (error) {
       if (!(error instanceof Refusal)) throw error;
@@ -271,7 +268,7 @@ export class Run {
     const held = /** @type {HeldInstruments} */ (this._held);
     const [hand, other] = this._hands.map(([push, turn]) => [pushSpeed * push * dt, turnSpeed * turn * dt]);
     hand[1] += held.towardsAim(this._state, steps, turnSpeed * dt);
-    const moves = held.moves(hand, other);
+    const moves = this._isSteered ? held.motion(hand, other) : [[0, 0]];
     const began = performance.now();
     const numbers = this._program.step(moves.flat(), steps);
     const cost = (performance.now() - began) / 1000 / steps;
@@ -279,7 +276,6 @@ export class Run {
     const size = this._layout.reduce((sum, [, count]) => sum + count, HEAD);
     const channels = numbers[2] || numbers.length !== size ? this._take(this._program.ask({ session: "state" }))
       : this._channels(numbers[0], numbers[1], split(this._layout, numbers));
-    held.addAll(moves, numbers[0], this._state);
     if (this._isAgent) this._tellAgent(this._program.ask({ session: "agent" }));
     this._largest = largestShown(channels).map((value, k) => Math.max(value, this._largest[k] ?? 0));
     const values = channels.flatMap((channel) => [...channel.values]);
@@ -304,6 +300,7 @@ export class Run {
 
   /** The state of an answer. @param {Message} answer */
   _take(answer) {
+    this._unrecorded = answer.unrecorded ?? this._unrecorded;
     const state = arraysOf(answer);
     this._layout = Object.entries(state).map(([name, { length }]) => /** @type {const} */ ([name, length]));
     const trust = answer.reliable ? "reliable" : "not reliable";
@@ -361,8 +358,54 @@ export class Run {
       file: this._scene, problem: this._problem, values,
       choices: Object.fromEntries(Object.entries(choices).filter(([key]) => key in values)),
       exchanges: this._exchanges, exchangesAsked: this._exchangesAsked, pace: this._pace, paces, outcome: this._outcome,
-      ...(this._held?.status() ?? { held: 0, instruments: [], chosen: [], named: [], steered: "no run is open" }),
+      ...(this._held?.status() ?? { held: 0, instruments: [], chosen: [], named: [] }),
+      steered: this._held ? this._unrecorded : "no run is open",
     } });
+  }
+}
+
+/** The wire and the catheters of a run; one of their hubs is held at a time. */
+export class HeldInstruments {
+  /** @param {{title: string, name: string, key: string, choices: string[]}[]} instruments as described
+   * @param {number} held */
+  constructor(instruments, held) {
+    this._instruments = instruments;
+    this.held = held;
+    /** Turn that the held hub goes to, rad; null: it turns as the hand does. @type {number | null} */
+    this.aim = null;
+  }
+
+  /** Another instrument is in the place of one, and the run goes on. @param {HeldInstruments["_instruments"]} instruments */
+  exchange(instruments) {
+    this.aim = null;
+    this._instruments = instruments;
+  }
+
+  /** Takes another one. @param {number} number */
+  hold(number) {
+    this.held = number;
+    this.aim = null;
+  }
+
+  /** Turn in each of some steps that brings the held hub to its aim, rad. @param {State} state @param {number} steps
+   * @param {number} most its size */
+  towardsAim(state, steps, most) {
+    const hub = this.held === 0 ? state.hub : state[`catheter${this.held}`];
+    return this.aim === null || !hub ? 0 : Math.min(Math.max((this.aim - hub[1]) / steps, -most), most);
+  }
+
+  /** What both hands ask of each hub: one of the held, the other of the next one. @param {number[]} hand
+   * @param {number[]} other */
+  motion(hand, other) {
+    const next = (this.held + 1) % this._instruments.length;
+    return this._instruments.map((_, k) => (k === this.held ? hand : k === next ? other : [0, 0]));
+  }
+
+  /** What a page shows of the instruments. */
+  status() {
+    return { held: this.held, instruments: this._instruments.map(({ title }) => title),
+      chosen: this._instruments.map(({ name }) => name),
+      named: this._instruments.map(({ choices }) => choices).filter(({ length }) => length) };
   }
 }
 

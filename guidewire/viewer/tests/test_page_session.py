@@ -22,7 +22,6 @@ from guidewire.viewer.held import HeldInstruments
 from guidewire.viewer.live import LiveFrames
 from guidewire.viewer.parts import PAGE
 from guidewire.viewer.recording import facts_of, largest_shown, radius_of
-from guidewire.sessions.steered import RULES, exact_push, exact_turn
 
 SCENES = [*(pytest.param(name, {}, id=name) for name in ("insertion", "insertion-accurate", "catheter-branch")),
           pytest.param("cantilever", {"solver": "xpbd", "timeStep": 0.001}, id="xpbd"),
@@ -109,13 +108,14 @@ console.log(JSON.stringify({ frames, status: messages.filter((message) => messag
 def test_channels_frames_and_status_are_those_of_the_server(runner_command, name, changes):
     file = ROOT / "params" / f"{name}.json"
     server = live.LiveRun({name: file}, name, {"solver": ["direct", "pbd"]})
-    with Session(file, hand=name != "cantilever", native=False, **live.ENDLESS, **changes) as session:
+    with Session(file, hand=name != "cantilever", native=False, records_steering=True, **live.ENDLESS,
+                 **changes) as session:
         session._host = recorder = Recorder(session._host)
         described, surfaces = session.describe(), session.walls()
         walls = recorder.answers.pop()["walls"]
         server._session, server._frames = session, LiveFrames(session, name, ["one"])
         recorder.answers.clear()
-        server._instruments.begin(session, described)
+        server._instruments = HeldInstruments(described)
         states = [session.reset()]
         states += [session.step(push=0.4 * session.hand, turn=0.01 * session.hand) for _ in range(4)]
         wanted = [server._frames._channels(0.0, state) for state in states]
@@ -163,67 +163,35 @@ def test_channels_frames_and_status_are_those_of_the_server(runner_command, name
     assert set(got["status"]) == set(status)
 
 
-STEERED = """
-import { exactPush, exactTurn, HeldInstruments } from "./steered.js";
-const exact = data.pushes.map(([push, metres]) => exactPush(data.rules, push, metres));
-const turns = data.turns.map((turn) => exactTurn(data.rules, turn));
-const held = new HeldInstruments(data.rules, data.parameters, data.described.instruments, true, 0);
-const moves = data.calls.map(({ hub, push, turn, step, insertions }) => {
-  held.held = hub;
-  const move = held.inAStep(push, turn);
-  held.add(...move, step, { hub: [insertions[0]], catheter1: [insertions[1]] });
-  return move;
-});
-const aims = data.aims.map(([number, aim, turn, steps, most]) => {
+HELD = """
+import { HeldInstruments } from "./run.js";
+console.log(JSON.stringify(data.hands.map(({ number, aim, turn, steps, most, hand, other }) => {
+  const held = new HeldInstruments(data.described.instruments, 0);
   held.hold(number);
   held.aim = aim;
-  return held.towardsAim({ [number ? "catheter1" : "hub"]: [0, turn] }, steps, most);
-});
-console.log(JSON.stringify({ exact: told(exact), turns: told(turns), moves: told(moves.flat()), aims: told(aims),
-  tables: held.steered.map((one) => one.toCsv()) }));
+  return [held.towardsAim({ [number ? `catheter${number}` : "hub"]: [0, turn] }, steps, most), held.motion(hand, other)];
+})));
 """
 
 
-def test_pushes_turns_and_drive_tables_are_those_of_the_server(runner_command):
+@pytest.mark.parametrize("hubs", [1, 2, 3])
+def test_what_hands_ask_of_each_hub_is_what_the_server_asks(hubs):
     dice = random.Random(65)
-    pushes = [(dice.choice([-1, 1]) * 10 ** dice.uniform(-9, 2), metres) for metres in (1e-3, 1.0, 0.0254, 1 / 3e3)
-              for _ in range(500)]
-    turns = [dice.uniform(-4, 4) for _ in range(500)] + [k * 0.5 * RULES["turnGrain"] for k in range(-4, 5)]
-    calls = []
-    with Session(ROOT / "params" / "catheter-branch.json", hand=True, native=False, **live.ENDLESS) as session:
-        own = HeldInstruments()
-        described = session.describe()
-        own.begin(session, described)
-        for _ in range(60):    # one hub runs against the other, and carries it along
-            hub, steps = dice.choice([0, 1, 1, 1]), 2 ** dice.randrange(3)
-            call = {"hub": hub, "push": (5.0 if hub else -3.0) * dice.random(), "turn": dice.uniform(-0.1, 0.1)}
-            own.hold(hub)
-            push, turn = own.in_a_step(call["push"], call["turn"])
-            state = session.step(push * steps, turn * steps, steps, hub)
-            own.add(hub, push, turn, steps, state)
-            calls.append({**call, "step": state.step, "moved": (push, turn),
-                          "insertions": [state.hub.insertion, state.catheters[0].insertion]})
-        parameters = dict(session.parameters)
-    aims = [(dice.choice([0, 1]), dice.choice([None, 0.0, 2.0]), dice.uniform(-1, 3), 2 ** dice.randrange(5),
-             dice.uniform(0, 0.3)) for _ in range(100)]
-    towards = []
-    for number, aim, turn, steps, most in aims:
-        own.hold(number)
-        own.aim, hubs = aim, [SimpleNamespace(turn=math.nan), SimpleNamespace(turn=math.nan)]
-        hubs[number].turn = turn
-        towards.append(own.towards_aim(SimpleNamespace(hub=hubs[0], catheters=hubs[1:]), steps, most))
-    assert {one == 0 for one in towards} == {True, False}
-    got = follow(STEERED, aims=aims, pushes=pushes, turns=turns, rules=RULES, parameters=parameters,
-                 described=described,
-                 calls=calls)
-    np.testing.assert_array_equal(doubles(got["exact"]), [exact_push(*one) for one in pushes])
-    np.testing.assert_array_equal(doubles(got["turns"]), [exact_turn(one) for one in turns])
-    np.testing.assert_array_equal(doubles(got["aims"]), towards)
-    np.testing.assert_array_equal(doubles(got["moves"]), np.ravel([one["moved"] for one in calls]))
-    tables = [np.loadtxt(own.to_csv(k).splitlines(), delimiter=",", skiprows=1) for k in range(2)]
-    assert max(np.diff(tables[1][:, 1])) > 0 and (np.diff(tables[1][:, 1]) == 0).sum() > 100
-    for mine, table in zip(got["tables"], tables, strict=True):
-        np.testing.assert_array_equal(np.loadtxt(mine.splitlines(), delimiter=",", skiprows=1), table)
+    described = {"instruments": [{"title": "", "name": "", "choices": []}] * hubs}
+    hands = [{"number": dice.randrange(hubs), "aim": dice.choice([None, 0.0, 2.0]), "turn": dice.uniform(-1, 3),
+              "steps": 2 ** dice.randrange(5), "most": dice.uniform(0, 0.3),
+              "hand": [dice.uniform(-1, 1), 0.25], "other": [0.5, dice.uniform(-1, 1)]} for _ in range(50)]
+    turns = set()
+    for one, (turn, motion) in zip(hands, follow(HELD, hands=hands, described=described), strict=True):
+        own = HeldInstruments(described)
+        own.hold(one["number"])
+        own.aim, there = one["aim"], [SimpleNamespace(turn=math.nan) for _ in range(hubs)]
+        there[one["number"]].turn = one["turn"]
+        assert own.towards_aim(SimpleNamespace(hub=there[0], catheters=there[1:]), one["steps"], one["most"]) == turn
+        assert [list(each) for each in own.motion(one["hand"], one["other"])] == motion
+        assert motion[one["number"]] == one["hand"] and motion.count([0.0, 0.0]) + motion.count([0, 0]) >= hubs - 2
+        turns.add(turn == 0)
+    assert turns == {True, False}
 
 
 RIMS = """

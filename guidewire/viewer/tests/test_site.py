@@ -17,7 +17,6 @@ from guidewire.runs import building
 from guidewire.runs.runner import Request
 from guidewire.sessions.session import Session, session_of
 from guidewire.viewer.cases import MISSIONS
-from guidewire.viewer.held import HeldInstruments
 from guidewire.viewer.live import ENDLESS, PUSH_SPEED
 from guidewire.viewer.site import _course
 from guidewire.viewer.tests.browsing import from_npm
@@ -147,11 +146,8 @@ def test_gains_steered_by_keys_into_a_branch_have_the_bits_of_a_session(request,
         ["see", STEP], ["see", f"[...{wire}]"], ["see", "viewer.shown._connection.steered(0)"])
     step, positions, saved = answer["seen"][2:]
     with Session(ROOT / "params" / "insertion.json", hand=True, native=False, **ENDLESS) as session:
-        own = HeldInstruments()
-        own.begin(session, session.describe())
-        push, _ = own.in_a_step(PUSH_SPEED * session.parameters["timeStep"], 0.0)
         for _ in range(int(step)):
-            state = session.step(push)
+            state = session.step(PUSH_SPEED * session.parameters["timeStep"])
     np.testing.assert_array_equal(np.reshape(positions, (-1, 3)), state.positions)
     x, y, z = state.positions[-1]
     assert abs(x) < 10 and 30 < y < 80 and z > 205    # in the branch, as on the server's page

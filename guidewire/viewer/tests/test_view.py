@@ -345,8 +345,8 @@ def test_a_dial_is_followed_to_its_turn_however_late_its_page_sees_it(runner_com
             step = session.state.step
             while session.state.step < step + 20:
                 await asyncio.sleep(0.01)
-        turns = np.loadtxt(run.steered_csv(1).splitlines(), delimiter=",", skiprows=1)[:, 2]
-        turned = np.loadtxt(run.steered_csv(0).splitlines(), delimiter=",", skiprows=1)[:, 2]
+        turns = np.loadtxt((await run.steered_csv(1)).splitlines(), delimiter=",", skiprows=1)[:, 2]
+        turned = np.loadtxt((await run.steered_csv(0)).splitlines(), delimiter=",", skiprows=1)[:, 2]
         await run._do_hand({"push": 0, "turn": 0.5, "mark": 1})    # a key takes over
         await run._do_hand({"push": 0, "turn": 0, "mark": 2})
         assert run._instruments.aim is None

@@ -28,6 +28,7 @@ namespace Guidewire.Io
         private readonly CancellationToken _cancellation;
         private readonly bool _limitsHubs;
         private readonly double[] _motion;     // of the hubs, where one moves
+        private SteeredMotion? _steered;       // of a session that records it
 
         private SimulationSession(ParameterSource from, List<KeyValuePair<string, JToken>> overrides,
             ParameterHandler handler, bool isSteered, bool limitsHubs = false, CancellationToken cancellation = default)
@@ -70,6 +71,10 @@ namespace Guidewire.Io
 
         /// <summary>Whether the user holds the first element, instead of the drive.</summary>
         public bool IsSteered => _steering != null;
+
+        /// <summary>Why no table says how this session was steered since its start, in one phrase; empty where one
+        /// does; null where it is not recorded.</summary>
+        internal string? Unrecorded => _steered?.Problem;
 
         /// <summary>Contrast agent in the blood, which no step depends on; null where the vessel has no
         /// centreline.</summary>
@@ -224,8 +229,29 @@ namespace Guidewire.Io
             StepByMotion();
         }
 
+        /// <summary>Records from now, the start, on how the hubs are steered. Their motion is then rounded by less than
+        /// 2e-15 m and 5e-13 rad a step, so that a table repeats it.</summary>
+        internal void RecordSteering()
+        {
+            _steered = new SteeredMotion(Parameters);
+        }
+
+        /// <summary>Gives for each hub, the wire's first, the table for driveFile that repeats its motion.</summary>
+        /// <exception cref="ParameterException">None does; the line says why.</exception>
+        internal IEnumerable<string> DriveTables()
+        {
+            string problem = _steered == null ? "this session does not record how it is steered" : _steered.Problem;
+            if (problem.Length > 0)
+            {
+                throw new ParameterException(problem);
+            }
+            return Enumerable.Range(0, InstrumentCount).Select(_steered!.ToCsv);
+        }
+
         private void StepByMotion()
         {
+            int done = Simulation.StepCount;
+            _steered?.Round(_motion);
             if (_steering != null)
             {
                 for (int hub = 0; hub < InstrumentCount; hub++)
@@ -245,6 +271,10 @@ namespace Guidewire.Io
                 Simulation.Step();
             }
             Contrast?.Flow.Advance(Parameters.Method.TimeStep);
+            if (Simulation.StepCount > done)
+            {
+                _steered?.Add(_motion, Simulation);
+            }
             double time = (Stopwatch.GetTimestamp() - before) * RunFolder.ToMilliseconds;
             StepTime = StepTime == 0.0 ? time : StepTime + Smoothing * (time - StepTime);
         }
@@ -291,6 +321,7 @@ namespace Guidewire.Io
                 throw new ParameterException("the snapshot was saved by another build and is not "
                     + "compatible: " + error.Message);
             }
+            _steered?.End("an earlier state was restored within the run: start anew to record");
         }
 
         /// <summary>Back to the start. As <see cref="Restore"/>, not for a run that is logged.</summary>
@@ -298,6 +329,7 @@ namespace Guidewire.Io
         {
             Simulation = Simulation.Restore(_handler.Values.Simulation, _start);
             Contrast?.Flow.Clear();
+            _steered = _steered == null ? null : new SteeredMotion(Parameters);
         }
 
         /// <summary>Changes a parameter; the wire continues from its current state.</summary>
@@ -307,7 +339,7 @@ namespace Guidewire.Io
         public void Set(string key, string value) =>
             Set(CommandLineHandler.ReadAssignments(new[] { key + "=" + value }));
 
-        internal void Set(IReadOnlyCollection<KeyValuePair<string, JToken>> values)
+        internal void Set(IReadOnlyCollection<KeyValuePair<string, JToken>> values, string? change = null)
         {
             var changed = new List<KeyValuePair<string, JToken>>(_overrides);
             foreach (KeyValuePair<string, JToken> value in values)
@@ -325,6 +357,8 @@ namespace Guidewire.Io
             _start = next.HasElementsOf(Simulation) ? _start : Simulation.Create(handler.Values.Simulation).Save();
             Simulation = next;
             Note("parameters changed by hand");
+            _steered?.End((change ?? string.Join(", ", values.Select(value => value.Key)) + " was changed")
+                + " within the run: start anew to record");
             _handler = handler;
             _overrides.Clear();
             _overrides.AddRange(changed);
@@ -368,7 +402,7 @@ namespace Guidewire.Io
                     all.Add(KeyValuePair.Create("catheters[" + k + "].start", (JToken)start));
                 }
             }
-            Set(all);
+            Set(all, "an instrument was exchanged");
         }
 
         private void Prepare(ParameterHandler handler)
