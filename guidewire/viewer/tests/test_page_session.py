@@ -169,7 +169,8 @@ console.log(JSON.stringify(data.hands.map(({ number, aim, turn, steps, most, han
   const held = new HeldInstruments(data.described.instruments, 0);
   held.hold(number);
   held.aim = aim;
-  return [held.towardsAim({ [number ? `catheter${number}` : "hub"]: [0, turn] }, steps, most), held.motion(hand, other)];
+  const hub = number ? `catheter${number}` : "hub";
+  return [held.towardsAim({ [hub]: [0, turn] }, steps, most), held.motion(hand, other)];
 })));
 """
 

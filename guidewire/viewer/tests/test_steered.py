@@ -57,7 +57,7 @@ def test_saved_tables_give_the_bits_that_were_steered(runner_command, tmp_path, 
     for state in shown:
         np.testing.assert_array_equal(log.positions[state.step], state.positions, err_msg=f"step {state.step}")
         for k, catheter in enumerate(state.catheters):
-            np.testing.assert_array_equal(log.catheters[k][state.step], catheter.positions, err_msg=f"step {state.step}")
+            np.testing.assert_array_equal(log.catheters[k][state.step], catheter.positions)
 
 
 @pytest.mark.parametrize("held, push, gone", [(0, 0.8, 8.0), (1, -0.8, -8.0), (0, -7.0, -50.0)])
