@@ -14,6 +14,8 @@ namespace Guidewire.Core
         private readonly Vector3d? _givenExit;    // of the sheath
         private readonly CoaxialRecord[] _catheters;
         private readonly double[][] _lengths;    // of the elements of the wire and of each catheter, units
+        private readonly string _moving;         // walls
+        private readonly WallBeam? _beam;
         private readonly TimeStepper _stepper;
         private readonly StopRule _stopRule;
         private readonly StepClock _clock;
@@ -30,6 +32,8 @@ namespace Guidewire.Core
             _givenExit = parameters.Scene.Sheath?.Exit;
             _catheters = new CoaxialRecord[parameters.Scene.Catheters.Count];
             _lengths = LengthsOf(parameters);
+            _moving = WallFields.KeyOf(parameters.Scene.Walls);
+            _beam = BeamOf(parameters);
             State = start.State;
             _stepper = start.Stepper;
             _warnings = new RunWarnings(parameters, _stepper);
@@ -242,6 +246,14 @@ namespace Guidewire.Core
             {
                 throw new ArgumentException("catheters: their number cannot change during a run");
             }
+            if (WallFields.KeyOf(parameters.Scene.Walls) != _moving)
+            {
+                throw new ArgumentException(_beam == null || BeamOf(parameters) == null
+                    ? "vessel: a motion or a beam cannot be added or removed during a run"
+                    : FormattableString.Invariant($"vessel.beam: its {_beam.Count} splines cannot become ")
+                    + FormattableString.Invariant($"{BeamOf(parameters)!.Count} during a run: give it their spacing, ")
+                    + FormattableString.Invariant($"{_beam.Spacing * parameters.Scene.MetresPerUnit:G6} m"));
+            }
             double[][] lengths = LengthsOf(parameters);
             bool[] isOther = lengths.Select((own, k) => !AreSame(own, _lengths[k])).ToArray();
             if (Array.Exists(isOther, one => one))
@@ -351,6 +363,9 @@ namespace Guidewire.Core
             return _lengths.Length == other._lengths.Length
                 && _lengths.Select((own, k) => AreSame(own, other._lengths[k])).All(isSame => isSame);
         }
+
+        private static WallBeam? BeamOf(SimulationParameters parameters) =>
+            parameters.Scene.Walls.Length > 0 ? parameters.Scene.Walls[0].Motion?.Beam : null;
 
         private static bool AreSame(double[] lengths, double[] others)
         {

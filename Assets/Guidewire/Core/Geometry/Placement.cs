@@ -28,11 +28,20 @@ namespace Guidewire.Core
         public bool Mirrors => _scale.X * _scale.Y * _scale.Z < 0.0;
 
         /// <summary>Where the point stands.</summary>
-        public Vector3d Apply(in Vector3d x)
-        {
-            var scaled = new Vector3d(_scale.X * x.X, _scale.Y * x.Y, _scale.Z * x.Z);
-            return _position + Quaterniond.Rotate(_orientation, scaled);
-        }
+        public Vector3d Apply(in Vector3d x) => _position + ApplyToWay(x);
+
+        /// <summary>What a displacement of the vessel becomes.</summary>
+        public Vector3d ApplyToWay(in Vector3d way) =>
+            Quaterniond.Rotate(_orientation, new Vector3d(_scale.X * way.X, _scale.Y * way.Y, _scale.Z * way.Z));
+
+        /// <summary>What a rotation vector of the vessel becomes, with factors of one size (<see cref="IsUniform"/>).
+        /// </summary>
+        public Vector3d ApplyToTurn(in Vector3d turn) =>
+            ((Mirrors ? -1.0 : 1.0) / System.Math.Abs(_scale.X)) * ApplyToWay(turn);
+
+        /// <summary>Whether the factors are of one size.</summary>
+        public bool IsUniform => System.Math.Abs(_scale.X) == System.Math.Abs(_scale.Y)
+            && System.Math.Abs(_scale.X) == System.Math.Abs(_scale.Z);
 
         /// <summary>The orientation of Euler angles in degrees, in Unity's order: about z first, then x, then y, all
         /// about the fixed axes.</summary>

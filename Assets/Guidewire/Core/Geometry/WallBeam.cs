@@ -23,7 +23,6 @@ namespace Guidewire.Core
         private readonly Vector3d[] _points;         // of the centreline, a piece apart, units
         private readonly Vector3d[] _second;         // its second derivatives there
         private readonly double _piece;              // units
-        private readonly double _spacing;            // of the splines, units
         private readonly double[] _stiffness;        // N/m, Count x Count: the lower triangle counts, of all components
 
         /// <summary>Makes the beam of a vessel.</summary>
@@ -50,18 +49,21 @@ namespace Guidewire.Core
                     + " splines: a larger spacing is needed" : "its centreline has no length");
             }
             Length = length;
-            _spacing = length / pieces;
-            _piece = _spacing / PiecesPerSpline;
+            Spacing = length / pieces;
+            _piece = Spacing / PiecesPerSpline;
             Count = (int)pieces + Order - 1;
             _points = Resample(centreline, (int)pieces * PiecesPerSpline);
             _second = SecondDerivatives();
             _stiffness = new double[9 * Count * Count];
             AddBending(bending / (metres * metres * metres), stretching / metres, foundation * metres);
-            AddHolds(holds, Hold * foundation * metres * _spacing);
+            AddHolds(holds, Hold * foundation * metres * Spacing);
         }
 
         /// <summary>The length of the centreline, units.</summary>
         public double Length { get; }
+
+        /// <summary>Of the splines, units.</summary>
+        public double Spacing { get; }
 
         /// <summary>The number of splines.</summary>
         public int Count { get; }
@@ -122,10 +124,10 @@ namespace Guidewire.Core
         /// <summary>The splines at a station, with their derivatives.</summary>
         internal Splines SplinesAt(double station)
         {
-            int k = Math.Min((int)(station / _spacing), Count - Order);
-            double b = station / _spacing - k;
+            int k = Math.Min((int)(station / Spacing), Count - Order);
+            double b = station / Spacing - k;
             double a = 1.0 - b;
-            double per = 1.0 / _spacing;
+            double per = 1.0 / Spacing;
             return new Splines(k,
                 (a * a * a / 6.0, (3.0 * b * b * b - 6.0 * b * b + 4.0) / 6.0,
                     (3.0 * a * a * a - 6.0 * a * a + 4.0) / 6.0, b * b * b / 6.0),
@@ -240,7 +242,7 @@ namespace Guidewire.Core
                     for (int l = 0; l < Order; l++)
                     {
                         double both = stiffness * (splines.Value(m) * splines.Value(l)
-                            + _spacing * _spacing * splines.Slope(m) * splines.Slope(l));
+                            + Spacing * Spacing * splines.Slope(m) * splines.Slope(l));
                         for (int c = 0; c < 3; c++)
                         {
                             Add(3 * (splines.First + m) + c, 3 * (splines.First + l) + c, both);

@@ -117,6 +117,10 @@ namespace Guidewire.Core
         /// else for each point of the centreline a displacement, a rotation vector and a change of scale.</summary>
         public int Count { get; private set; }
 
+        /// <summary>How far the meshes that it was fitted to are beside it, units: in the mean and at most; null: it was
+        /// not.</summary>
+        public (double Mean, double Largest)? Misfit { get; set; }
+
         /// <summary>A rigid motion by a sine: its values are the amplitudes times sin(2 pi phase).</summary>
         /// <param name="translation">Units.</param>
         /// <param name="rotation">Radians.</param>
@@ -148,7 +152,10 @@ namespace Guidewire.Core
 
         /// <summary>Gives the cycle of these motions with another period, which begins at another phase.</summary>
         public MotionCycle At(double period, double phase) =>
-            new MotionCycle(period, phase, _table, _sine) { IsRigid = IsRigid, About = About, Count = Count };
+            new MotionCycle(period, phase, _table, _sine)
+            {
+                IsRigid = IsRigid, About = About, Count = Count, Misfit = Misfit,
+            };
 
         /// <summary>Sets the values at a phase.</summary>
         internal void Evaluate(double phase, double[] values)

@@ -111,6 +111,14 @@ namespace Guidewire.Core
         public static Quaterniond Normalize(in Quaterniond q) =>
             (1.0 / Math.Sqrt(q.X * q.X + q.Y * q.Y + q.Z * q.Z + q.W * q.W)) * q;
 
+        /// <summary>The shortest turn from one direction to another; none where they are opposite.</summary>
+        public static Quaterniond Shortest(in Vector3d from, in Vector3d to)
+        {
+            Vector3d across = Vector3d.Cross(from, to);
+            double along = Vector3d.Dot(from, to) + from.Length * to.Length;
+            return along > 0.0 ? Normalize(new Quaterniond(across.X, across.Y, across.Z, along)) : Identity;
+        }
+
         /// <summary>Of the two numbers of an orientation that which goes on from another one.</summary>
         public static Quaterniond Aligned(in Quaterniond before, in Quaterniond q)
         {

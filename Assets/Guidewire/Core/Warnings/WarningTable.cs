@@ -201,6 +201,11 @@ namespace Guidewire.Core
             + "there the inside is not defined", "a wire may pass where the sheets cross; then `passages` or "
                 + "`maxPenetration` makes the run unreliable. `anatomy FILE` mends such a mesh");
 
+        /// <summary>How well a motion fits the meshes that it was made of.</summary>
+        public static readonly WarningKind FrameMisfit = AtStart("frameMisfit",
+            "vessel.motion.frames: the meshes are *a:G3* units beside the fitted motion in the mean, *b:G3* at most",
+            "sections stay round, and move with the centreline ([moving-vessels.md](moving-vessels.md))");
+
         /// <summary>A soft wall that is as good as rigid.</summary>
         public static readonly WarningKind SoftStiff = AtStart("softStiff",
             "*wall*: wallStiffness = *K:G3* Pa is as good as rigid; without it the run takes less time",

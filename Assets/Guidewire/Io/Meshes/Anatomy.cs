@@ -51,6 +51,34 @@ namespace Guidewire.Io
             return found;
         }
 
+        /// <summary>The points of each branch one after another, the first where it leaves another one.</summary>
+        public IEnumerable<Vector3d[]> BranchLines()
+        {
+            for (int b = 0; b < BranchNames.Count; b++)
+            {
+                var line = new List<Vector3d>();
+                int last = -1;
+                foreach (int k in Enumerable.Range(0, Points.Length).Where(k => Branches[k] == b))
+                {
+                    if (Parents[k] != last && line.Count > 1)
+                    {
+                        yield return line.ToArray();
+                    }
+                    if (Parents[k] != last)
+                    {
+                        line.Clear();
+                        line.AddRange(Parents[k] < 0 ? Array.Empty<Vector3d>() : new[] { Points[Parents[k]] });
+                    }
+                    line.Add(Points[k]);
+                    last = k;
+                }
+                if (line.Count > 1)
+                {
+                    yield return line.ToArray();
+                }
+            }
+        }
+
         /// <summary>The end with a name, whatever its case, or null.</summary>
         public VesselEnd? Find(string name) =>
             Ends.FirstOrDefault(end => string.Equals(end.Name, name, StringComparison.OrdinalIgnoreCase));

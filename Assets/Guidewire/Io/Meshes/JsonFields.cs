@@ -168,8 +168,8 @@ namespace Guidewire.Io
             return points.ToArray();
         }
 
-        /// <summary>Replaces a text by another.</summary>
-        public void Replace(string name, string text) => _object[name] = text;
+        /// <summary>Replaces what stands in a field.</summary>
+        public void Replace(string name, JToken value) => _object[name] = value;
 
         /// <summary>The line for a field whose value is not allowed.</summary>
         public ParameterException Wrong(string name, string allowed)

@@ -96,6 +96,13 @@ namespace Guidewire.Io
             }
         }
 
+        /// <summary>SHA-256 of what stands in a file, in hex.</summary>
+        internal static string Sum(byte[] bytes)
+        {
+            using SHA256 sha = SHA256.Create();
+            return BitConverter.ToString(sha.ComputeHash(bytes)).Replace("-", "").ToLowerInvariant();
+        }
+
         /// <summary>A file's mesh.</summary>
         internal sealed class Entry
         {
@@ -103,8 +110,7 @@ namespace Guidewire.Io
             {
                 (File, Bytes, Scale, Rims) = (file, bytes, scale, rims);
                 Wall = new MeshShape(MeshFile.Make(file, bytes, scale, rims));
-                using SHA256 sha = SHA256.Create();
-                Sha256 = BitConverter.ToString(sha.ComputeHash(bytes)).Replace("-", "").ToLowerInvariant();
+                Sha256 = Sum(bytes);
             }
 
             public string File { get; }

@@ -35,14 +35,7 @@ namespace Guidewire.Io
         /// <summary>The wall of what was read from a file; see <see cref="Read"/>.</summary>
         internal static TriangleMesh Make(string file, byte[] bytes, double scale, IReadOnlyList<Vector3d> rims)
         {
-            var vertices = new List<Vector3d>();
-            var triangles = new List<int>();
-            string? problem = Extension(file) == ".obj" ? ObjReader.Read(bytes, vertices, triangles)
-                : StlReader.Read(bytes, vertices, triangles);
-            if (problem != null)
-            {
-                throw new ParameterException(file + ": " + problem);
-            }
+            (List<Vector3d> vertices, List<int> triangles) = ReadFaces(file, bytes);
             var points = new Vector3d[rims.Count];
             for (int i = 0; i < points.Length; i++)
             {
@@ -57,6 +50,18 @@ namespace Guidewire.Io
             {
                 throw new ParameterException(file + ": " + error.Message);
             }
+        }
+
+        /// <summary>The vertices and triangles of a file as they stand there.</summary>
+        /// <exception cref="ParameterException">It cannot be read, or holds none.</exception>
+        internal static (List<Vector3d> Vertices, List<int> Triangles) ReadFaces(string file, byte[]? bytes = null)
+        {
+            bytes ??= ReadBytes(file);
+            var vertices = new List<Vector3d>();
+            var triangles = new List<int>();
+            string? problem = Extension(file) == ".obj" ? ObjReader.Read(bytes, vertices, triangles)
+                : StlReader.Read(bytes, vertices, triangles);
+            return problem == null ? (vertices, triangles) : throw new ParameterException(file + ": " + problem);
         }
 
         private static string Extension(string file) => Path.GetExtension(file).ToLowerInvariant();

@@ -18,6 +18,7 @@ namespace Guidewire.Io
         internal const string Phase = "phase";
         private const string Rigid = "rigid";
         private const string Centreline = "centreline";
+        private const string Frames = "frames";
         private const string Spacing = "spacing";
         private const string RampTime = "rampTime";
         internal const string Breathing = "breathing";
@@ -25,8 +26,10 @@ namespace Guidewire.Io
         private const double DefaultSpacing = 2e-3;    // m
         private const double Radians = Math.PI / 180.0;
         private const int MostPoints = 5000;           // of all branches
+        private const double FarVertices = 0.1;        // of a mesh, such as those of the lids of its ends
 
-        private static readonly string[] OfCycle = { Period, HeartRate, Phase, Rigid, Centreline };
+        private static readonly string[] Given = { Rigid, Centreline, Frames };
+        private static readonly string[] OfCycle = { Period, HeartRate, Phase, Rigid, Centreline, Frames };
 
         /// <summary>What a wall's field says; null: it stands still.</summary>
         /// <param name="values">The scene, whose anatomy may have the centreline.</param>
@@ -58,10 +61,10 @@ namespace Guidewire.Io
             FindFiles(own, sourceOf);
             FindFiles(breathing, sourceOf);
             WallMotion? known = last?.Find(values);
-            ReadCycle(own, values, sourceOf, spacing, cycles, branches, known);
+            ReadCycle(own, fields, values, sourceOf, wall, spacing, cycles, branches, known);
             if (breathing != null)
             {
-                ReadCycle(breathing, values, sourceOf, spacing, cycles, branches, known);
+                ReadCycle(breathing, fields, values, sourceOf, wall, spacing, cycles, branches, known);
             }
             double ramp = own.Number(RampTime, 0.25 * cycles[0].Period);
             if (!(ramp >= 0.0))
@@ -92,6 +95,10 @@ namespace Guidewire.Io
                         text += key + "=" + File.ReadAllText((string)file!) + "\n";
                     }
                 }
+                foreach (JToken frame in (cycle as JObject)?[Frames] as JArray ?? new JArray())
+                {
+                    text += Frames + "=" + KeptMeshes.Sum(MeshFile.ReadBytes((string)frame!)) + "\n";
+                }
             }
             return text;
         }
@@ -102,15 +109,15 @@ namespace Guidewire.Io
             foreach (JToken? cycle in new[] { wall[Key], (wall[Key] as JObject)?[Breathing] })
             {
                 foreach (JProperty property in ((cycle as JObject) ?? new JObject()).Properties()
-                    .Where(own => own.Value.Type == JTokenType.String).ToArray())
+                    .Where(own => own.Value.Type == JTokenType.String || own.Name == Frames).ToArray())
                 {
                     property.Remove();
                 }
             }
         }
 
-        private static void ReadCycle(JsonFields fields, RunParameters values, Func<string, string> sourceOf,
-            double spacing, List<MotionCycle> cycles, List<Vector3d[]> branches, WallMotion? known)
+        private static void ReadCycle(JsonFields fields, JsonFields vessel, RunParameters values,
+            Func<string, string> sourceOf, ContactShape wall, double spacing, List<MotionCycle> cycles, List<Vector3d[]> branches, WallMotion? known)
         {
             if (fields.Has(Period) == fields.Has(HeartRate))
             {
@@ -124,16 +131,17 @@ namespace Guidewire.Io
             {
                 throw fields.Wrong(Phase, "a number from 0 to 1");
             }
-            if (fields.Has(Rigid) == fields.Has(Centreline))
+            string[] given = Array.FindAll(Given, fields.Has);
+            if (given.Length != 1)
             {
-                throw fields.Wrong(Rigid, "one of rigid and centreline");
+                throw fields.Wrong(given.LastOrDefault() ?? Rigid, "one of rigid, centreline and frames");
             }
             double units = 1.0 / values.Simulation.Scene.MetresPerUnit;
-            if (fields.Has(Centreline))
+            if (!fields.Has(Rigid))
             {
                 if (branches.Count > 0)
                 {
-                    throw fields.Wrong(Centreline, "rigid: only one cycle may move the centreline");
+                    throw fields.Wrong(given[0], "rigid: only one cycle may move the centreline");
                 }
                 if (known != null)
                 {
@@ -141,7 +149,8 @@ namespace Guidewire.Io
                     cycles.Add(known.Cycles[cycles.Count].At(period, phase));
                     return;
                 }
-                cycles.Add(OfCentreline(fields, values, sourceOf, spacing, (period, phase), branches));
+                cycles.Add(fields.Has(Frames) ? OfFrames(fields, vessel, values, wall, spacing, (period, phase), branches)
+                    : OfCentreline(fields, values, sourceOf, spacing, (period, phase), branches));
             }
             else if (fields.IsText(Rigid))
             {
@@ -175,7 +184,11 @@ namespace Guidewire.Io
                 new TableColumn("rx", Dimension.Angle, 0.0), new TableColumn("ry", Dimension.Angle, 0.0),
                 new TableColumn("rz", Dimension.Angle, 0.0), new TableColumn("scale", Dimension.Number, 1.0));
             double[] phases = Phases(fields, Centreline, table[2].Distinct().OrderBy(own => own).ToList());
-            var placement = new Placement(values.Position, Placement.FromEulerDegrees(values.Rotation), values.Scale);
+            Placement placement = PlacementOf(values);
+            if (!placement.IsUniform && table.Skip(9).Take(3).Any(column => column.Any(turn => turn != 0.0)))
+            {
+                throw fields.Wrong(Centreline, "a table without rotations where the key scale has different factors");
+            }
             List<double[]>[] rows = Array.ConvertAll(phases, _ => new List<double[]>());
             foreach (IGrouping<double, int> branch in Enumerable.Range(0, table[0].Count)
                 .GroupBy(row => table[0][row]).OrderBy(group => group.Key))
@@ -186,10 +199,13 @@ namespace Guidewire.Io
                 foreach (int row in branch)
                 {
                     Vector3d rest = placement.Apply(units * new Vector3d(table[3][row], table[4][row], table[5][row]));
+                    Vector3d way = placement.ApplyToWay(
+                        units * new Vector3d(table[6][row], table[7][row], table[8][row]));
+                    Vector3d turn = placement.ApplyToTurn(
+                        new Vector3d(table[9][row], table[10][row], table[11][row]));
                     given[Array.IndexOf(phases, table[2][row])][Array.IndexOf(stations, table[1][row])] = new[]
                     {
-                        rest.X, rest.Y, rest.Z, units * table[6][row], units * table[7][row], units * table[8][row],
-                        table[9][row], table[10][row], table[11][row], table[12][row] - 1.0,
+                        rest.X, rest.Y, rest.Z, way.X, way.Y, way.Z, turn.X, turn.Y, turn.Z, table[12][row] - 1.0,
                     };
                 }
                 if (given.Any(moment => moment.Any(row => row == null)) || stations.Length < 2)
@@ -197,24 +213,97 @@ namespace Guidewire.Io
                     throw fields.Wrong(Centreline, "a table with at least two stations of each branch, each at every "
                         + "phase: branch " + branch.Key + " has not");
                 }
-                branches.Add(Resample(units, spacing, stations, given, rows));
-                if (rows[0].Count > MostPoints)
-                {
-                    throw fields.Wrong(Spacing, "a larger one: the centreline has more than " + MostPoints + " points");
-                }
+                AddBranch(fields, branches, Resample(units, spacing, stations, given, rows));
             }
             return MotionCycle.Table(cycle.Period, cycle.Phase, phases,
                 Array.ConvertAll(rows, moment => moment.SelectMany(row => row).ToArray()), null);
         }
 
+        // Meshes of one topology at even phases, of which the first is the vessel at rest.
+        private static MotionCycle OfFrames(JsonFields fields, JsonFields vessel, RunParameters values,
+            ContactShape wall, double spacing, (double Period, double Phase) cycle, List<Vector3d[]> branches)
+        {
+            if (values.Anatomy == null || !(wall is MeshShape))
+            {
+                throw fields.Wrong(Frames, "a vessel that is a mesh with a centreline: it needs vessel.anatomy, the "
+                    + "file that the command anatomy writes beside a mesh");
+            }
+            List<string> files = fields.Texts(Frames);
+            if (files.Count < 3)
+            {
+                throw fields.Wrong(Frames, "a list of three or more meshes of one cycle");
+            }
+            double unit = values.Simulation.Scene.MetresPerUnit;
+            double scale = vessel.Number("metresPerUnit", unit) / unit;
+            Placement placement = PlacementOf(values);
+            var frames = new Vector3d[files.Count][];
+            List<int>? triangles = null;
+            for (int p = 0; p < frames.Length; p++)
+            {
+                (List<Vector3d> Vertices, List<int> Triangles) mesh = MeshFile.ReadFaces(files[p]);
+                triangles ??= mesh.Triangles;
+                if (!triangles.SequenceEqual(mesh.Triangles) || (p > 0 && mesh.Vertices.Count != frames[0].Length))
+                {
+                    throw fields.Refused(Frames + ": " + files[p] + " has other triangles than " + files[0]
+                        + ": all need the same vertices in the same order");
+                }
+                frames[p] = mesh.Vertices.Select(vertex => placement.Apply(scale * vertex)).ToArray();
+            }
+            int far = frames[0].Count(vertex =>
+            {
+                int hint = -1;
+                return !wall.Nearest(vertex, vertex, spacing, ref hint, out _);
+            });
+            if (far > FarVertices * frames[0].Length)
+            {
+                throw fields.Refused(FormattableString.Invariant(
+                    $"{Frames}: {files[0]} is not the vessel at rest: {far} of its {frames[0].Length} vertices are ")
+                    + FormattableString.Invariant($"farther from its wall than the spacing of {unit * spacing:G3} m"));
+            }
+            foreach (Vector3d[] line in values.Anatomy.BranchLines())
+            {
+                var stations = new double[line.Length];
+                for (int k = 1; k < line.Length; k++)
+                {
+                    stations[k] = stations[k - 1] + Vector3d.Distance(line[k - 1], line[k]);
+                }
+                AddBranch(fields, branches, Resample(1.0, spacing, stations,
+                    new[] { Array.ConvertAll(line, c => new[] { c.X, c.Y, c.Z }) }, null));
+            }
+            double[] phases = Enumerable.Range(0, frames.Length).Select(p => (double)p / frames.Length).ToArray();
+            try
+            {
+                var fitted = MotionCycle.Table(cycle.Period, cycle.Phase, phases,
+                    FrameFit.Rows(branches, spacing, frames), null);
+                fitted.Misfit = FrameFit.Misfit(fitted, branches, spacing, frames);
+                return fitted;
+            }
+            catch (ArgumentException error)
+            {
+                throw fields.Refused(Frames + ": " + files[0] + " " + error.Message);
+            }
+        }
+
+        private static Placement PlacementOf(RunParameters values) =>
+            new Placement(values.Position, Placement.FromEulerDegrees(values.Rotation), values.Scale);
+
+        private static void AddBranch(JsonFields fields, List<Vector3d[]> branches, Vector3d[] points)
+        {
+            branches.Add(points);
+            if (branches.Sum(branch => branch.Length) > MostPoints)
+            {
+                throw fields.Wrong(Spacing, "a larger one: the centreline has more than " + MostPoints + " points");
+            }
+        }
+
         // Points of a branch a spacing apart, by splines through its stations.
         private static Vector3d[] Resample(double units, double spacing, double[] stations, double[][][] given,
-            List<double[]>[] rows)
+            List<double[]>[]? rows)
         {
             double length = units * (stations[stations.Length - 1] - stations[0]);
             int count = Math.Max(2, (int)Math.Min(MostPoints, Math.Round(length / spacing) + 1.0));
             var points = new Vector3d[count];
-            var values = new double[10];
+            var values = new double[given[0][0].Length];
             for (int p = 0; p < given.Length; p++)
             {
                 var spline = new CubicSpline(stations, given[p]);
@@ -222,7 +311,7 @@ namespace Guidewire.Io
                 {
                     spline.Evaluate(stations[0] + length / units * k / (count - 1), values);
                     points[k] = p == 0 ? new Vector3d(values[0], values[1], values[2]) : points[k];
-                    rows[p].Add(values.Skip(3).ToArray());
+                    rows?[p].Add(values.Skip(3).ToArray());
                 }
             }
             return points;
@@ -243,6 +332,11 @@ namespace Guidewire.Io
                 {
                     cycle.Replace(key, NamedFile.Find(cycle.Text(key), sourceOf(cycle.Key + "." + key)));
                 }
+            }
+            if (cycle != null && cycle.Has(Frames))
+            {
+                cycle.Replace(Frames, new JArray(cycle.Texts(Frames)
+                    .Select(file => NamedFile.Find(file, sourceOf(cycle.Key + "." + Frames)))));
             }
         }
 

@@ -2,6 +2,7 @@ using System;
 using System.Collections.Generic;
 using System.Globalization;
 using System.IO;
+using System.Linq;
 using Guidewire.Core;
 using Newtonsoft.Json.Linq;
 
@@ -36,6 +37,9 @@ namespace Guidewire.Io
                 vessel.Motion = BeamReader.Read(fields, values, vessel,
                     MotionReader.Read(fields, values, sourceOf, vessel, null, from.Mesh?.Motion));
                 walls.Add(vessel);
+                warnings.AddRange((vessel.Motion?.Cycles ?? Array.Empty<MotionCycle>())
+                    .Where(cycle => cycle.Misfit.HasValue).Select(cycle => WarningTable.FrameMisfit.Text(
+                        cycle.Misfit!.Value.Mean, cycle.Misfit.Value.Largest)));
                 values.Places = values.Path == null ? null
                     : new LumenPlaces(values.Path, values.Anatomy!.Ends, vessel);
                 WarnOfSelfIntersection(vessel, fields.Text("file"), warnings);

@@ -1,4 +1,5 @@
 using System;
+using System.Linq;
 
 namespace Guidewire.Core
 {
@@ -16,14 +17,13 @@ namespace Guidewire.Core
         {
             Of = new WallField?[walls.Length];
             Shared = new int[walls.Length];
+            Key = KeyOf(walls);
             for (int w = 0; w < walls.Length; w++)
             {
                 Shared[w] = Array.FindIndex(walls, wall => wall.Motion == walls[w].Motion);
                 Of[w] = walls[w].Motion == null ? null
                     : Shared[w] < w ? Of[Shared[w]] : new WallField(walls[w].Motion!);
                 Carrier = Carrier < 0 && Of[w] != null ? w : Carrier;
-                Key += Of[w] == null || Shared[w] < w ? "" : ", moving " + walls[w].Motion!.Cycles.Count
-                    + (walls[w].Motion!.Beam == null ? "" : ", beam " + walls[w].Motion!.Beam!.Count);
                 IsTimed |= walls[w].Motion?.Cycles.Count > 0;
             }
             Beam = Carrier < 0 ? null : walls[Carrier].Motion!.Beam;
@@ -46,7 +46,12 @@ namespace Guidewire.Core
         public bool IsTimed { get; }
 
         /// <summary>What a saved state has to agree in; empty where no wall moves.</summary>
-        public string Key { get; } = "";
+        public string Key { get; }
+
+        /// <summary>Gives <see cref="Key"/>.</summary>
+        public static string KeyOf(ContactShape[] walls) => string.Concat(walls.Select(wall => wall.Motion).Distinct()
+            .Where(motion => motion != null).Select(motion => ", moving " + motion!.Cycles.Count
+                + (motion.Beam == null ? "" : ", beam " + motion.Beam.Count)));
 
         /// <summary>The time of all, s.</summary>
         public double Time { get; private set; }

@@ -169,7 +169,7 @@ namespace Guidewire.Core
             Vector3d before = shape.X[j + 1] - shape.X[j];
             Vector3d after = predicted.X[j + 1] - predicted.X[j];
             Vector3d spin = RotationVector.Log(shape.Q[j].Conjugate * orientations[j]);
-            predicted.Q[j] = ShortestRotation(before, after) * shape.Q[j]
+            predicted.Q[j] = Quaterniond.Shortest(before, after) * shape.Q[j]
                 * RotationVector.Exp(new Vector3d(0.0, 0.0, spin.Z));
         }
 
@@ -280,15 +280,6 @@ namespace Guidewire.Core
                 before = after;
                 one = two;
             }
-        }
-
-        // The shortest turn from one direction to another.
-        internal static Quaterniond ShortestRotation(in Vector3d from, in Vector3d to)
-        {
-            Vector3d across = Vector3d.Cross(from, to);
-            double along = Vector3d.Dot(from, to) + from.Length * to.Length;
-            return along > 0.0 ? Quaterniond.Normalize(new Quaterniond(across.X, across.Y, across.Z, along))
-                : Quaterniond.Identity;
         }
     }
 

@@ -261,7 +261,7 @@ namespace Guidewire.Core
             }
             for (int j = Math.Max(_first - 1, 0); j < n; j++)
             {
-                shape.Q[j] = WallPrediction.ShortestRotation(_from[j + 1] - _from[j], shape.X[j + 1] - shape.X[j])
+                shape.Q[j] = Quaterniond.Shortest(_from[j + 1] - _from[j], shape.X[j + 1] - shape.X[j])
                     * shape.Q[j];
             }
             return Around(since);
