@@ -13,15 +13,20 @@ from __future__ import annotations
 
 import base64
 import csv
+import json
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 from scipy.interpolate import CubicSpline
 from scipy.spatial import cKDTree
 from scipy.spatial.transform import Rotation
+
+from guidewire.anatomy.centreline_files import branches_of
+from guidewire.anatomy.triangles import read_obj, read_stl
 
 SIZES = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "deg": np.pi / 180.0, "rad": 1.0}
 _STEPS = 30  # of Newton's method
@@ -41,7 +46,7 @@ def write_centreline(file: Path, rest: list[np.ndarray], displaced: np.ndarray |
     with open(file, "w", encoding="utf-8", newline="\n") as out:
         out.write("branch,station_mm,phase,x_mm,y_mm,z_mm,dx_mm,dy_mm,dz_mm\n")
         for branch, (points, moved) in enumerate(zip(rest, displaced)):
-            stations = np.r_[0.0, np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))]
+            stations = _arc(points)
             for phase, rows in zip(phases, moved):
                 for station, x, d in zip(stations, points, rows):
                     numbers = [station, phase, *x, *d]
@@ -64,10 +69,12 @@ class VesselMotion:
     motion : the object of the parameters of a run, whose files have whole names
     metres_per_unit : m
     place : the vessel's placement, of points (n, 3); None: none
+    vessel : the object of the parameters, where `frames` move it
     """
 
-    def __init__(self, motion: dict[str, Any], metres_per_unit: float, place: Any = None) -> None:
-        self._metres = metres_per_unit
+    def __init__(self, motion: dict[str, Any], metres_per_unit: float, place: Any = None,
+                 vessel: Mapping[str, Any] | None = None) -> None:
+        self._metres, self._vessel = metres_per_unit, vessel
         self._place = place if place is not None else lambda points: points
         self._spacing = float(motion.get("spacing", _SPACING)) / metres_per_unit
         self._branches: list[np.ndarray] = []
@@ -160,6 +167,8 @@ class VesselMotion:
         period, phase = _pace_of(own)
         if "centreline" in own:
             return _Cycle(period, phase, None, self._centreline(Path(own["centreline"])))
+        if "frames" in own:
+            return _Cycle(period, phase, None, self._frames(own["frames"]))
         rigid = own["rigid"]
         if isinstance(rigid, str):
             table = _read(Path(rigid), {})
@@ -184,14 +193,64 @@ class VesselMotion:
                 columns = np.stack([table[name][rows][order] for name in names], axis=1)
                 return columns.reshape(len(phases), len(stations), len(names))
 
-            count = max(2, round((stations[-1] - stations[0]) / self._metres / self._spacing) + 1)
-            at = stations[0] + (stations[-1] - stations[0]) * np.arange(count) / (count - 1)
-            rest = self._place(grid("x", "y", "z")[0].reshape(-1, 3) / self._metres)
-            self._branches.append(CubicSpline(stations, rest, bc_type="natural")(at))
-            values = np.concatenate([grid("dx", "dy", "dz") / self._metres, grid("rx", "ry", "rz"),
+            at = self._add_branch(stations / self._metres,
+                                  self._place(grid("x", "y", "z")[0] / self._metres)) * self._metres
+            origin, *axes = self._place(np.concatenate([np.zeros((1, 3)), np.eye(3)]))
+            linear = np.array(axes) - origin    # of a row
+            turned = linear * np.sign(np.linalg.det(linear)) / np.linalg.norm(linear[0])
+            values = np.concatenate([grid("dx", "dy", "dz") @ linear / self._metres, grid("rx", "ry", "rz") @ turned,
                                      grid("scale") - 1.0], axis=2)
             moved.append(CubicSpline(stations, values, axis=1, bc_type="natural")(at))
         return _periodic(phases, np.concatenate(moved, axis=1))
+
+    def _add_branch(self, stations: np.ndarray, rest: np.ndarray) -> np.ndarray:
+        """Add points of a branch about a spacing apart, and return where they are among its stations, units."""
+        count = max(2, round((stations[-1] - stations[0]) / self._spacing) + 1)
+        at = stations[0] + (stations[-1] - stations[0]) * np.arange(count) / (count - 1)
+        self._branches.append(CubicSpline(stations, rest, bc_type="natural")(at))
+        return at
+
+    def _frames(self, files: list[str]) -> Any:
+        """Fit the points of the anatomy's centreline to meshes of one topology, of which the first is at rest."""
+        size = float(self._vessel.get("metresPerUnit", self._metres)) / self._metres
+        line = json.loads(Path(self._vessel["anatomy"]).read_text(encoding="utf-8"))["centreline"]
+        points = self._place(size * np.array(line["points"], dtype=float)[:, :3])
+        tree = SimpleNamespace(parents=np.array(line["parents"]), branches=np.array(line["branches"]), loops=())
+        for own in branches_of(tree):
+            self._add_branch(_arc(points[own]), points[own])
+        read = (read_stl if file.lower().endswith("stl") else read_obj for file in files)
+        frames = np.array([self._place(size * one(Path(file).read_bytes()).vertices)
+                           for one, file in zip(read, files)])
+        rows = np.concatenate([_fitted(branch, self._spacing, frames) for branch in self._branches], axis=1)
+        return _periodic(np.arange(len(frames)) / len(frames), rows)
+
+
+def _fitted(branch: np.ndarray, spacing: float, frames: np.ndarray) -> np.ndarray:
+    """Return (phases, k, 7) of points of a branch, displacement, rotation vector and change of scale, that fit vertices
+    (phases, n, 3): those near a point are displaced by d + B v + b (t.v)^2."""
+    rows = np.zeros((len(frames), len(branch), 7))
+    along = np.concatenate([branch[1:], branch[-1:]]) - np.concatenate([branch[:1], branch[:-1]])
+    for k, (centre, t) in enumerate(zip(branch, _units(along))):
+        arms = frames[0] - centre
+        squares = (arms**2).sum(axis=1)
+        over = 0.5 * (squares - squares.min()) / max(spacing**2, squares.min())
+        near = over < 36.0
+        terms = np.c_[np.ones(near.sum()), arms[near], (arms[near] @ t)**2]
+        weights = np.exp(-0.5 * over[near])[:, None]
+        sides = np.moveaxis(frames[:, near] - frames[0, near], 0, 1).reshape(near.sum(), -1)
+        found = np.linalg.lstsq(weights * terms, weights * sides, rcond=None)[0].reshape(5, len(frames), 3)
+        slopes = np.eye(3) + np.moveaxis(found[1:4], 0, 2)    # of each frame: rows are components
+        after = _units(slopes @ t)
+        back = _shortest(np.tile(t, (len(frames), 1)), after).inv().as_matrix() @ slopes
+        across = np.eye(3) - np.outer(t, t)
+        sine = np.einsum("pij,ij->p", across @ back @ across, np.cross(np.eye(3), t))
+        cosine = np.trace(across @ back @ across, axis1=1, axis2=2)
+        rows[:, k] = np.c_[found[0], np.arctan2(sine, cosine)[:, None] * after, 0.5 * np.hypot(sine, cosine) - 1.0]
+    return rows
+
+
+def _arc(points: np.ndarray) -> np.ndarray:
+    return np.r_[0.0, np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))]
 
 
 def _pace_of(cycle: Mapping[str, Any]) -> tuple[float, float]:
@@ -292,7 +351,7 @@ class GivenVessel:
     """
 
     def __init__(self, rest: np.ndarray) -> None:
-        self._stations = np.r_[0.0, np.cumsum(np.linalg.norm(np.diff(rest, axis=0), axis=1))]
+        self._stations = _arc(rest)
         self._rest = CubicSpline(self._stations, rest)
         self._fine = np.linspace(0.0, self._stations[-1], 20 * len(rest))
         self._near = cKDTree(self._rest(self._fine))
@@ -316,7 +375,7 @@ def drawn_beam(times: np.ndarray, centrelines: np.ndarray, count: int = 32) -> d
     """Return what the page draws of a vessel that gave way during a run: a cycle as of `Session.describe`, which lasts
     as long as the run. times : (k,) s; centrelines : (k, m, 6), as logs have them."""
     rest = centrelines[0, :, :3]
-    stations = np.r_[0.0, np.cumsum(np.linalg.norm(np.diff(rest, axis=0), axis=1))]
+    stations = _arc(rest)
     fine = np.linspace(0.0, stations[-1], _PER_PIECE * (len(rest) - 1) + 1)
     curve, at = CubicSpline(stations, rest), np.linspace(times[0], times[-1], count)
     before = _units(curve(fine, 1))
@@ -349,13 +408,16 @@ def _turned(before: np.ndarray, after: np.ndarray, arm: np.ndarray) -> np.ndarra
 def motion_of(parameters: Mapping[str, Any]) -> VesselMotion | None:
     """Return how the vessel of a run moves; None where it stands still. Files have whole names."""
     motion = (parameters.get("vessel") or {}).get("motion")
-    return None if motion is None else VesselMotion(motion, float(parameters["metresPerUnit"]), _place_of(parameters))
+    return None if motion is None else _motion(motion, parameters)
 
 
 def motions_of(parameters: Mapping[str, Any]) -> dict[int, VesselMotion]:
     """Return by the number of a wall that moves, the vessel first where there is one, how it moves."""
-    return {k: VesselMotion(motion, float(parameters["metresPerUnit"]), _place_of(parameters))
-            for k, motion in _moving(parameters)}
+    return {k: _motion(motion, parameters) for k, motion in _moving(parameters)}
+
+
+def _motion(motion: dict[str, Any], parameters: Mapping[str, Any]) -> VesselMotion:
+    return VesselMotion(motion, float(parameters["metresPerUnit"]), _place_of(parameters), parameters.get("vessel"))
 
 
 def _moving(parameters: Mapping[str, Any]) -> Iterator[tuple[int, dict[str, Any]]]:

@@ -4,6 +4,7 @@ import json
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 from guidewire.anatomy.motion import VesselMotion, beat_of_heart, motion_of, write_centreline
 from guidewire.logs.logs import read_columns, read_log
@@ -56,24 +57,122 @@ def test_the_map_is_that_of_the_runner(live, scene, tmp_path):
     assert run.summary["passages"] == 0
 
 
-def test_the_centreline_goes_where_the_table_says(tmp_path):
+@pytest.mark.parametrize("size", [np.ones(3), np.array([-1.5, 1.5, 1.5])])
+def test_the_centreline_goes_where_the_table_says(tmp_path, size):
     ostium, base, apex = np.zeros(3), np.array([20.0, -10.0, 0.0]), np.array([60.0, 40.0, -60.0])
     phases = np.arange(16) / 16
     points = np.linspace(ostium, apex, 40) + np.sin(np.linspace(0, 3, 40))[:, None] * np.array([0.0, 0.0, 12.0])
     moved = beat_of_heart([points], ostium, base, apex, phases)
     write_centreline(tmp_path / "beat.csv", [points], moved, phases)
-    motion = VesselMotion({"heartRate": 70, "centreline": str(tmp_path / "beat.csv"), "rampTime": 0.0}, 1e-3)
+    own = {"heartRate": 70, "centreline": str(tmp_path / "beat.csv"), "rampTime": 0.0}
+    turn = Rotation.from_euler("xyz", [0.0, 0.0, 0.0] if size[0] == 1.0 else [0.3, 2.0, -1.0])
+
+    def placed(x):
+        return turn.apply(size * x) + [1.0, 2.0, 3.0]
+
+    motion = VesselMotion(own, 1e-3, placed)
     assert 5.0 < np.linalg.norm(moved[0], axis=2).max() < 20.0
     for k, phase in enumerate(phases):
         motion.set_time(phase * motion.period)
-        np.testing.assert_allclose(motion.moved(points), points + moved[0][k], atol=0.02)
+        np.testing.assert_allclose(motion.moved(placed(points)), placed(points + moved[0][k]), atol=0.03)
+
+
+def _write_frames(folder, line, radius, maps):
+    """Write a tube around a line (k, 3), its anatomy, and it as each map moves it; return names and vertices at rest."""
+    tangents = np.gradient(line, axis=0)
+    tangents /= np.linalg.norm(tangents, axis=1)[:, None]
+    one = np.cross(tangents, [1.0, 0.0, 0.0])
+    one /= np.linalg.norm(one, axis=1)[:, None]
+    two = np.cross(tangents, one)
+    angles = np.arange(16) * np.pi / 8
+    rings = line[:, None] + radius * (np.cos(angles)[:, None] * one[:, None] + np.sin(angles)[:, None] * two[:, None])
+    vertices = rings.reshape(-1, 3)
+    k, j = np.meshgrid(np.arange(len(line) - 1), np.arange(16), indexing="ij")
+    a, b = 16 * k + j, 16 * k + (j + 1) % 16
+    faces = 1 + np.concatenate([np.stack(c, axis=-1).reshape(-1, 3) for c in ([a, b, a + 16], [b, b + 16, a + 16])])
+    names = [f"frame{p}.obj" for p in range(len(maps))]
+    for name, moved in zip(names, maps):
+        rows = [f"v {x:.15g} {y:.15g} {z:.15g}" for x, y, z in moved(vertices)]
+        (folder / name).write_text("\n".join(rows + [f"f {p} {q} {r}" for p, q, r in faces]))
+    ends = [{"number": n, "name": f"end {n}", "centre": line[at].tolist(), "radius": radius, "direction": way.tolist(),
+             "open": True, "point": at % len(line)} for n, at, way in ((1, 0, tangents[0]), (2, -1, -tangents[-1]))]
+    (folder / "anatomy.json").write_text(json.dumps({"ends": ends, "centreline": {
+        "points": np.c_[line, np.full(len(line), radius)].tolist(), "parents": list(range(-1, len(line) - 1)),
+        "branches": [1] * len(line), "names": ["branch 1"]}}))
+    return names, vertices
+
+
+LINE = np.concatenate([np.c_[np.zeros((38, 2)), np.arange(-75.0, 0.0, 2.0)], BEND[5:]])
+
+
+@pytest.fixture
+def beating(tmp_path):
+    """A mesh that bends, with its frames: a parameter file."""
+    maps = [lambda x, s=np.sin(2 * np.pi * p / 10): x + s * np.clip(x[:, 2:] / 40, 0, 2)**2 * [2, -1, 0.5]
+            for p in range(10)]
+    names, _ = _write_frames(tmp_path, LINE, 3.0, maps)
+    own = json.loads(json.dumps(SCENE))
+    own["vessel"] = {"shape": "mesh", "file": names[0], "anatomy": "anatomy.json",
+                     "motion": {"period": 0.5, "phase": 0.3, "frames": names}}
+    file = tmp_path / "frames.json"
+    file.write_text(json.dumps(own))
+    return file
+
+
+def test_frames_move_a_wire_as_their_fit_in_python_says(live, beating, tmp_path):
+    answer = live.run(Request("frames", beating, tmp_path / "run"))
+    assert answer.exit_code == 0, answer.message
+    run = read_run(tmp_path / "run")
+    assert any("beside the fitted motion" in line for line in run.summary["warnings"])
+    log = read_log(run.folder, "all")
+    moved = read_columns(run.folder, ["vesselDisplacement"], log.steps)["vesselDisplacement"]
+    motion = motion_of(run.parameters)
+    for time, tip, own in zip(log.time[::8], log.positions[::8, -1], moved[::8]):
+        motion.set_time(time)
+        np.testing.assert_allclose(own, tip - motion.at_rest(tip[None])[0][0], atol=1e-8)
+    assert np.linalg.norm(moved, axis=1).max() > 0.3
+
+
+def test_twist_and_width_of_frames_are_those_of_the_closed_form(tmp_path):
+    line, phases = np.c_[np.zeros((41, 2)), np.linspace(0, 80, 41)], np.arange(12) / 12
+
+    def at(phase):
+        def moved(x):
+            angle = 0.01 * np.sin(2 * np.pi * phase) * x[:, 2]
+            wide = 1 + 0.1 * np.sin(2 * np.pi * phase)
+            return np.c_[wide * (np.cos(angle) * x[:, 0] - np.sin(angle) * x[:, 1]),
+                         wide * (np.sin(angle) * x[:, 0] + np.cos(angle) * x[:, 1]), x[:, 2] * (1 + 0.1 * (wide - 1))]
+        return moved
+
+    names, rest = _write_frames(tmp_path, line, 3.0, [at(phase) for phase in phases])
+    motion = VesselMotion({"period": 1, "rampTime": 0, "frames": [str(tmp_path / name) for name in names]}, 1e-3,
+                          vessel={"anatomy": str(tmp_path / "anatomy.json")})
+    for phase in (0.25, 0.75, 0.375):    # the last one lies between frames
+        motion.set_time(phase)
+        np.testing.assert_allclose(motion.moved(rest[80:-80]), at(phase)(rest[80:-80]), atol=0.01)
+
+
+@pytest.mark.parametrize("change, expected", [
+    (lambda names: names[:2], "a list of three or more meshes"), (lambda names: [], "a list of three or more meshes"),
+    (lambda names: [names[0], "none.obj", names[2]], "none.obj"), (lambda names: names[:2] + ["ring.obj"], "is empty"),
+    (lambda names: names[:2] + ["other.obj"], "has other triangles than"),
+    (lambda names: names[3:], "is not the vessel at rest"), (lambda names: [1, 2, 3], "a list of texts"),
+])
+def test_frames_that_do_not_fit_are_refused(live, beating, tmp_path, change, expected):
+    own = json.loads(beating.read_text())
+    (tmp_path / "ring.obj").write_text("")
+    (tmp_path / "other.obj").write_text((tmp_path / "frame2.obj").read_text().rpartition("\n")[0])
+    own["vessel"]["motion"]["frames"] = change(own["vessel"]["motion"]["frames"])
+    beating.write_text(json.dumps(own))
+    answer = live.run(Request("wrong", beating, tmp_path / "run"))
+    assert answer.exit_code == 2 and expected in answer.message and "\n" not in answer.message.strip()
 
 
 @pytest.mark.parametrize("change, expected", [
     ({"period": 0}, "motion.period = 0 is not allowed"),
     ({"heartRate": 60}, "no period beside it"),
     ({"phase": 2}, "a number from 0 to 1"),
-    ({"rigid": {"translation": [1, 0, 0]}}, "one of rigid and centreline"),
+    ({"rigid": {"translation": [1, 0, 0]}}, "one of rigid, centreline and frames"),
     ({"rampTime": -1}, "a number >= 0 (s)"),
     ({"centreline": "none.csv"}, "none.csv"),
     ({"beats": 3}, "unknown key 'vessel.motion.beats'"),

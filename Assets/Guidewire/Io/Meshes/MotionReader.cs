@@ -26,6 +26,7 @@ namespace Guidewire.Io
         private const double DefaultSpacing = 2e-3;    // m
         private const double Radians = Math.PI / 180.0;
         private const int MostPoints = 5000;           // of all branches
+        private const double NearWall = 0.25;          // of the spacing
         private const double FarVertices = 0.1;        // of a mesh, such as those of the lids of its ends
 
         private static readonly string[] Given = { Rigid, Centreline, Frames };
@@ -252,13 +253,13 @@ namespace Guidewire.Io
             int far = frames[0].Count(vertex =>
             {
                 int hint = -1;
-                return !wall.Nearest(vertex, vertex, spacing, ref hint, out _);
+                return !wall.Nearest(vertex, vertex, NearWall * spacing, ref hint, out _);
             });
             if (far > FarVertices * frames[0].Length)
             {
                 throw fields.Refused(FormattableString.Invariant(
                     $"{Frames}: {files[0]} is not the vessel at rest: {far} of its {frames[0].Length} vertices are ")
-                    + FormattableString.Invariant($"farther from its wall than the spacing of {unit * spacing:G3} m"));
+                    + FormattableString.Invariant($"farther from its wall than {unit * NearWall * spacing:G3} m"));
             }
             foreach (Vector3d[] line in values.Anatomy.BranchLines())
             {

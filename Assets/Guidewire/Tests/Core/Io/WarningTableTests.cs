@@ -82,6 +82,10 @@ namespace Guidewire.Core.Tests
             ["oddSizes"] = Driven.Replace("[0, 0, 65]", "[0, 0, 65000]") + ", 'maxSimulationSteps': 1",
             ["selfIntersection"] = "'vessel': {'shape': 'mesh', 'file': 'box.obj'}, 'guidewireLength': 10,"
                 + " 'guidewireOffset': -40, 'numberRodElements': 6, 'displacement': 0, 'maxSimulationSteps': 1",
+            ["frameMisfit"] = "'solver': 'direct', 'timeStep': 0.01, 'vessel': {'shape': 'mesh', 'file': 'box.obj',"
+                + " 'anatomy': 'box.json', 'motion': {'period': 1, 'frames': ['box.obj', 'box.obj', 'box.obj']}},"
+                + " 'guidewireLength': 10, 'guidewireOffset': -40, 'numberRodElements': 6,"
+                + " 'displacement': 0, 'maxSimulationSteps': 1",
             ["softStiff"] = Driven.Replace("'radius'", "'wallStiffness': 1e8, 'radius'") + ", 'maxSimulationSteps': 1",
             ["softElements"] = Driven.Replace("'radius'", "'wallStiffness': 1e8, 'radius'")
                 + ", 'maxSimulationSteps': 1",
@@ -143,6 +147,10 @@ namespace Guidewire.Core.Tests
         public void RunWithAWarning_IsAsReliableAsTheTableSays([ValueSource(nameof(Names))] string name)
         {
             File.WriteAllText(Path.Combine(Folder, "box.obj"), PiercedBox);
+            File.WriteAllText(Path.Combine(Folder, "box.json"), ("{'ends': [{'number': 1, 'name': 'top', 'centre': "
+                + "[0, 0, 40], 'radius': 9, 'direction': [0, 0, -1], 'open': false, 'point': 0}], 'centreline': {"
+                + "'points': [[0, 0, 40, 9], [0, 0, -40, 9]], 'parents': [-1, 0], 'branches': [1, 1], 'names': "
+                + "['one']}}").Replace('\'', '"'));
             string file = Path.Combine(Folder, "wire.json");
             File.WriteAllText(file, "{" + Runs[name].Replace('\'', '"') + "}");
             ParameterHandler handler = ParameterHandler.Load(file, CommandLineHandler.ReadAssignments(
