@@ -26,7 +26,7 @@ from scipy.spatial import cKDTree
 from scipy.spatial.transform import Rotation
 
 from guidewire.anatomy.centreline_files import branches_of
-from guidewire.anatomy.triangles import read_obj, read_stl
+from guidewire.anatomy.triangles import read_stl
 
 SIZES = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "deg": np.pi / 180.0, "rad": 1.0}
 _STEPS = 30  # of Newton's method
@@ -218,11 +218,16 @@ class VesselMotion:
         tree = SimpleNamespace(parents=np.array(line["parents"]), branches=np.array(line["branches"]), loops=())
         for own in branches_of(tree):
             self._add_branch(_arc(points[own]), points[own])
-        read = (read_stl if file.lower().endswith("stl") else read_obj for file in files)
-        frames = np.array([self._place(size * one(Path(file).read_bytes()).vertices)
-                           for one, file in zip(read, files)])
+        frames = np.array([self._place(size * _vertices(Path(file).read_bytes(), file)) for file in files])
         rows = np.concatenate([_fitted(branch, self._spacing, frames) for branch in self._branches], axis=1)
         return _periodic(np.arange(len(frames)) / len(frames), rows)
+
+
+def _vertices(mesh: bytes, name: str) -> np.ndarray:
+    """Return the vertices (n, 3) of a mesh that the runner has read."""
+    if name.lower().endswith(".stl"):
+        return read_stl(mesh).vertices
+    return np.array([line.split()[1:4] for line in mesh.splitlines() if line.lstrip()[:2] in (b"v ", b"v\t")], dtype=float)
 
 
 def _fitted(branch: np.ndarray, spacing: float, frames: np.ndarray) -> np.ndarray:
@@ -230,15 +235,15 @@ def _fitted(branch: np.ndarray, spacing: float, frames: np.ndarray) -> np.ndarra
     (phases, n, 3): those near a point are displaced by d + B v + b (t.v)^2."""
     rows = np.zeros((len(frames), len(branch), 7))
     along = np.concatenate([branch[1:], branch[-1:]]) - np.concatenate([branch[:1], branch[:-1]])
+    ways = np.moveaxis(frames - frames[0], 0, 1).reshape(frames.shape[1], -1)
     for k, (centre, t) in enumerate(zip(branch, _units(along))):
         arms = frames[0] - centre
         squares = (arms**2).sum(axis=1)
         over = 0.5 * (squares - squares.min()) / max(spacing**2, squares.min())
         near = over < 36.0
         terms = np.c_[np.ones(near.sum()), arms[near], (arms[near] @ t)**2]
-        weights = np.exp(-0.5 * over[near])[:, None]
-        sides = np.moveaxis(frames[:, near] - frames[0, near], 0, 1).reshape(near.sum(), -1)
-        found = np.linalg.lstsq(weights * terms, weights * sides, rcond=None)[0].reshape(5, len(frames), 3)
+        weighed = (np.exp(-over[near])[:, None] * terms).T
+        found = np.linalg.solve(weighed @ terms, weighed @ ways[near]).reshape(5, len(frames), 3)
         slopes = np.eye(3) + np.moveaxis(found[1:4], 0, 2)    # of each frame: rows are components
         after = _units(slopes @ t)
         back = _shortest(np.tile(t, (len(frames), 1)), after).inv().as_matrix() @ slopes

@@ -117,8 +117,8 @@ namespace Guidewire.Core
         /// else for each point of the centreline a displacement, a rotation vector and a change of scale.</summary>
         public int Count { get; private set; }
 
-        /// <summary>How far the meshes that it was fitted to are beside it, units: in the mean and at most; null: it was
-        /// not.</summary>
+        /// <summary>How far the meshes that it was fitted to are beside it, units, in the mean and at most; null: it
+        /// was not.</summary>
         public (double Mean, double Largest)? Misfit { get; set; }
 
         /// <summary>A rigid motion by a sine: its values are the amplitudes times sin(2 pi phase).</summary>

@@ -118,7 +118,8 @@ namespace Guidewire.Io
         }
 
         private static void ReadCycle(JsonFields fields, JsonFields vessel, RunParameters values,
-            Func<string, string> sourceOf, ContactShape wall, double spacing, List<MotionCycle> cycles, List<Vector3d[]> branches, WallMotion? known)
+            Func<string, string> sourceOf, ContactShape wall, double spacing, List<MotionCycle> cycles,
+            List<Vector3d[]> branches, WallMotion? known)
         {
             if (fields.Has(Period) == fields.Has(HeartRate))
             {
@@ -150,7 +151,8 @@ namespace Guidewire.Io
                     cycles.Add(known.Cycles[cycles.Count].At(period, phase));
                     return;
                 }
-                cycles.Add(fields.Has(Frames) ? OfFrames(fields, vessel, values, wall, spacing, (period, phase), branches)
+                cycles.Add(fields.Has(Frames)
+                    ? OfFrames(fields, vessel, values, wall, spacing, (period, phase), branches)
                     : OfCentreline(fields, values, sourceOf, spacing, (period, phase), branches));
             }
             else if (fields.IsText(Rigid))

@@ -246,8 +246,8 @@ namespace Guidewire.Core.Tests
             Assert.That(restored.Save(), Is.EqualTo(simulation.Save()));
         }
 
-        /// <summary>With as many splines the vessel goes on from where it is; with others, or none, it would be at rest,
-        /// where it may cut the wire.</summary>
+        /// <summary>With as many splines the vessel goes on from where it is; with others it would be at rest, where it
+        /// may cut the wire.</summary>
         [Test]
         public void ContinuedWithAnotherFoundation_ItGoesOnOrSaysWhyNot()
         {
