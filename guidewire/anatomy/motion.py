@@ -227,7 +227,8 @@ def _vertices(mesh: bytes, name: str) -> np.ndarray:
     """Return the vertices (n, 3) of a mesh that the runner has read."""
     if name.lower().endswith(".stl"):
         return read_stl(mesh).vertices
-    return np.array([line.split()[1:4] for line in mesh.splitlines() if line.lstrip()[:2] in (b"v ", b"v\t")], dtype=float)
+    lines = (line.split() for line in mesh.splitlines())
+    return np.array([words[1:4] for words in lines if words[:1] == [b"v"]], dtype=float)
 
 
 def _fitted(branch: np.ndarray, spacing: float, frames: np.ndarray) -> np.ndarray:

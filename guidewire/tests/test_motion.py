@@ -78,7 +78,7 @@ def test_the_centreline_goes_where_the_table_says(tmp_path, size):
 
 
 def _write_frames(folder, line, radius, maps):
-    """Write a tube around a line (k, 3), its anatomy, and it as each map moves it; return names and vertices at rest."""
+    """Write a tube around a line (k, 3) as each map moves it, and its anatomy; return names and vertices at rest."""
     tangents = np.gradient(line, axis=0)
     tangents /= np.linalg.norm(tangents, axis=1)[:, None]
     one = np.cross(tangents, [1.0, 0.0, 0.0])
