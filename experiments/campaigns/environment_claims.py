@@ -108,9 +108,15 @@ class Lumen:
             self.along = way.turn.apply(end["direction"])
             self.exit = way.placed(np.array([end["centre"]]))[0] + way.scale * end["radius"] * self.along
 
-    def is_out(self, points: np.ndarray) -> bool:
-        """Say whether one of these points (n, 3) is out of the vessel, and not in the sheath."""
-        return bool((((points - self.exit) @ self.along > 0.0) & ~self.closed.inside(points)).any())
+    def body(self, nodes: np.ndarray) -> np.ndarray:
+        """Return those nodes of an instrument (n, 3) that have come out of the sheath, wherever they went."""
+        beyond = (nodes - self.exit) @ self.along > 0.0
+        return nodes[int(np.argmax(beyond)):] if beyond.any() else nodes[:0]
+
+    def is_out(self, nodes: list[np.ndarray], is_of_tips: bool = False) -> bool:
+        """Say whether a node of one of these instruments, or one's tip, is out of the vessel, and not in the sheath."""
+        points = np.concatenate([self.body(one)[-1 if is_of_tips else 0:] for one in nodes])
+        return not self.closed.inside(points).all()
 
     def faults(self, wire: np.ndarray, catheters: list[np.ndarray], lengths: np.ndarray) -> list[str]:
         """Say what of these nodes is through the wall, or outside and not through a rim; lengths (n,) of the wire's
@@ -121,10 +127,7 @@ class Lumen:
             path = np.concatenate([nodes, path[tips[0] + 1:] if len(tips) else path[len(path):]])
         wrong = []
         for nodes in (path, *catheters):
-            beyond = (nodes - self.exit) @ self.along > 0.0
-            if not beyond.any():
-                continue
-            body = nodes[int(np.argmax(beyond)):]
+            body = self.body(nodes)
             by_rim = self.rims is not None and self.rims.crosses(body[:-1], body[1:]).any()
             if self.open.crosses(body[:-1], body[1:]).any():
                 wrong.append("an element crosses the wall")
@@ -213,9 +216,9 @@ class Judge:
             wire, *catheters = self._way.at_rest(self._states[k])
             for fault in lumen.faults(wire, catheters, lengths):
                 self.faults.append(f"state {k}: {fault}")
-        tips = np.array([nodes[-1] for state in self._states[:-1] for nodes in self._way.at_rest(state)])
-        is_out = [lumen.is_out(np.concatenate(self._way.at_rest(self._states[k]))) for k in sorted(looked_at)]
-        if any(is_out[:-1]) or lumen.is_out(tips):
+        before = [nodes for state in self._states[:-1] for nodes in self._way.at_rest(state)]
+        is_out = [lumen.is_out(self._way.at_rest(self._states[k])) for k in sorted(looked_at)]
+        if any(is_out[:-1]) or lumen.is_out(before, is_of_tips=True):
             self.faults.append("something is outside, and the episode goes on")
         if end == "left the vessel" and not is_out[-1]:
             self._fault("left the vessel, and all is inside")

@@ -47,6 +47,10 @@ def test_claims_are_judged_from_the_states_and_hosts_by_their_bits(task):
                              (aside[-1], "nodes are outside and went through no rim")):
             assert lumen.faults(state.positions + moved, [], lengths) == [wrong]
 
+        behind = lumen.exit - np.linspace(1.0, 20.0, 20)[:, None] * lumen.along    # units, along the sheath
+        for nodes, has_come_out in ((behind, False), (np.r_[state.positions, behind], True)):    # by its own inlet
+            assert [lumen.is_out([nodes]), lumen.is_out([nodes], is_of_tips=True)] == 2 * [has_come_out]
+
 
 def test_a_record_goes_on_where_it_was_ended_and_counts_other_bits_as_faults(tmp_path, monkeypatch):
     record = Record(tmp_path / "record.jsonl")
