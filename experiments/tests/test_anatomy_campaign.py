@@ -14,7 +14,7 @@ from experiments.campaigns.anatomy_campaign import Vessel, campaign, violations
 from experiments.campaigns.anatomy_independence import is_other_equilibrium
 from guidewire import navigation
 from guidewire.commands.commands import parse, run
-from guidewire.commands.instruments import files
+from guidewire.benches.library import files
 from guidewire.logs.logs import read_log
 from guidewire.prepare import ROOT
 from guidewire.runs.runner import Request, Runner

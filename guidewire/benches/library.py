@@ -5,11 +5,14 @@ The numbers themselves are read by the program that simulates them; here they ar
 
 from __future__ import annotations
 
+import difflib
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
+
+from guidewire.prepare import ROOT, PreparationError
 
 FOLDER = "instruments"
 
@@ -24,13 +27,20 @@ class Stated:
     source: str
 
 
-def find_files(folders: Sequence[Path]) -> dict[str, Path]:
-    """Name to file of all instruments; of two with one name that of the earlier folder."""
-    files: dict[str, Path] = {}
-    for folder in folders:
+def files() -> dict[str, Path]:
+    """Name to file of all instruments: of two with one name that of the current folder, not the program's."""
+    found: dict[str, Path] = {}
+    for folder in (Path.cwd() / FOLDER, ROOT / FOLDER):
         for file in sorted(folder.glob("*.json")):
-            files.setdefault(file.stem, file)
-    return dict(sorted(files.items()))
+            found.setdefault(file.stem, file)
+    return dict(sorted(found.items()))
+
+
+def check_name(name: str) -> None:
+    """Raises PreparationError, one line, for a name that no instrument has."""
+    if name not in files():
+        near = difflib.get_close_matches(name, files(), 1, 0.0)
+        raise PreparationError(f"there is no instrument '{name}': did you mean '{near[0]}'?")
 
 
 def read_stated(file: Path) -> list[Stated]:

@@ -335,15 +335,16 @@ def _mandrel(arguments: argparse.Namespace) -> int:
 
 
 def _instrument(arguments: argparse.Namespace) -> int:
+    from guidewire.benches.library import check_name
     from guidewire.commands import instruments, sheet
 
     checking.check_out(arguments.out)
     made = arguments.like is not None or bool(arguments.members)
     if arguments.name is not None and not made:
-        instruments.check_name(arguments.name)
+        check_name(arguments.name)
     with instruments.opened(build_runner()) as bench:
         if made:
-            sheet.write(bench, arguments.name, arguments.like, arguments.members)
+            sheet.write(bench.wire, arguments.name, arguments.like, arguments.members)
         return instruments.show(bench, arguments.name, arguments.out)
 
 

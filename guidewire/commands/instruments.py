@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import json
 import math
 import os
@@ -14,10 +13,11 @@ from pathlib import Path
 from typing import Any
 
 from guidewire.benches import benches, bent_tube, elastica
-from guidewire.benches.library import FOLDER, Stated, find_files, read_stated
+from guidewire.benches.library import Stated, files, read_stated
 from guidewire.benches.wire import Wire, wire_of
+from guidewire.commands.sheet import derived_lines
 from guidewire.logs.logs import LogError
-from guidewire.prepare import ROOT, PreparationError
+from guidewire.prepare import PreparationError
 from guidewire.runs.runner import Request, Runner
 from guidewire.runs.whole_files import whole_file
 
@@ -118,30 +118,17 @@ def opened(command: Sequence[str]) -> Iterator[Bench]:
         runner.close()
 
 
-def files() -> dict[str, Path]:
-    """Name to file: the current folder's instruments first, then the program's."""
-    return find_files([Path.cwd() / FOLDER, ROOT / FOLDER])
-
-
-def check_name(name: str) -> None:
-    """Raises PreparationError, one line, for a name that no instrument has."""
-    if name not in files():
-        near = difflib.get_close_matches(name, files(), 1, 0.0)
-        raise PreparationError(f"there is no instrument '{name}': did you mean '{near[0]}'?")
-
-
 def show(bench: Bench, name: str | None, out: Path) -> int:
     """Print what an instrument's file states and its bench tests, and draw it; 1 where a gate is not passed. Without a
     name print the table of all."""
     from guidewire.benches.figure import draw_instrument
-    from guidewire.commands import sheet
 
     if name is None:
         print("\n".join(table(bench)))
         return 0
     wire = bench.wire(name)
     file = files()[name]
-    print("\n".join([*stated_lines(read_stated(file)), *sheet.derived_lines(file, wire)]))
+    print("\n".join([*stated_lines(read_stated(file)), *derived_lines(file, wire)]))
     results = list(bench.stiffness(wire))
     print("\n".join(bench_lines(results)), flush=True)
     tube, smooth = bench.tube(wire, None), bench.tube(wire, 0.0)

@@ -8,13 +8,12 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from guidewire.benches.library import FOLDER
+from guidewire.benches.library import FOLDER, check_name, files
 from guidewire.benches.wire import Wire
-from guidewire.commands.instruments import Bench, check_name, files
 from guidewire.prepare import PreparationError
 from guidewire.runs.whole_files import write_whole
 
@@ -24,10 +23,15 @@ _FREE, _FREE_ERROR = 10.0, 0.5  # mm, of the tip in the test of its load
 _HELD = 8.18  # pi^2 EI/(0.699 l)^2 of a tip that cannot slide, over pi^2 EI/(2 l)^2
 
 
-def write(bench: Bench, name: str | None, like: str | None, members: Sequence[tuple[str, str]]) -> None:
+def write(simulate: Callable[[str], object], name: str | None, like: str | None,
+          members: Sequence[tuple[str, str]]) -> None:
     """Write the file of an instrument that is like another one but for some members of its data sheet.
 
     Raises PreparationError, one line, where it cannot be made, or is there already; nothing is written then.
+
+    Parameters
+    ----------
+    simulate : raises PreparationError where an instrument of a name cannot be simulated.
     """
     if name is None or like is None:
         raise PreparationError("--like OTHER and --set MEMBER=VALUE make an instrument: 'instrument NAME --like OTHER "
@@ -44,7 +48,7 @@ def write(bench: Bench, name: str | None, like: str | None, members: Sequence[tu
     file.parent.mkdir(exist_ok=True)
     write_whole(file, json.dumps(content, indent=2, ensure_ascii=False) + "\n")
     try:
-        bench.wire(name)
+        simulate(name)
     except PreparationError:
         file.unlink()
         raise

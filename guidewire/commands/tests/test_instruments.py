@@ -14,7 +14,7 @@ import pytest
 
 from guidewire.benches import benches, bent_tube, elastica
 from guidewire.benches.figure import draw_instrument
-from guidewire.benches.library import FOLDER, read_stated
+from guidewire.benches.library import FOLDER, files, read_stated
 from guidewire.benches.wire import Wire, wire_of
 from guidewire.commands import instruments, sheet
 from guidewire.logs.logs import LogError, read_entries, read_log
@@ -22,7 +22,7 @@ from guidewire.prepare import ROOT, PreparationError
 from guidewire.runs.runner import Request, Runner
 from guidewire.runs.tests.parameter_strategies import FULL
 
-NAMES = sorted(instruments.files())
+NAMES = sorted(files())
 STIFFEST = "lunderquist-extra-stiff-0.035"
 BASES = {"measured", "derived", "assumed"}
 
@@ -66,7 +66,7 @@ def taper_factor(m: float) -> float:
 
 
 def test_every_number_has_a_basis_and_a_source():
-    for file in instruments.files().values():
+    for file in files().values():
         stated = read_stated(file)
         assert {"diameter", "length", "torsionalRatio", "density", "friction", "tip"} <= {item.what for item in stated}
         for item in stated:
@@ -169,7 +169,7 @@ def test_a_data_sheet_makes_an_instrument_whose_tip_buckles_at_its_load(runner_c
     tan(u)/u - 1 over u^2/3 with u = pi/2 sqrt(P/P_cr), whatever EI is (Timoshenko, Theory of Elastic Stability)."""
     monkeypatch.chdir(tmp_path)
     with instruments.opened(runner_command) as bench:
-        sheet.write(bench, "mine", "bentson-0.035", [("tipLoad", "2"), ("tipLength", "3cm")])
+        sheet.write(bench.wire, "mine", "bentson-0.035", [("tipLoad", "2"), ("tipLength", "3cm")])
         wire = bench.wire("mine")
         (line,) = sheet.derived_lines(tmp_path / FOLDER / "mine.json", wire)
         assert "7.95e-07 N m2" in line and "from 5.38e-07 to 1.1e-06" in line and "9.72e-08" in line
@@ -184,14 +184,14 @@ def test_a_data_sheet_makes_an_instrument_whose_tip_buckles_at_its_load(runner_c
 
         u = 0.5 * math.pi * math.sqrt(0.8)
         assert deflection(0.8) / deflection(0.0) == pytest.approx((math.tan(u) / u - 1.0) / (u * u / 3.0), rel=0.01)
-        before = set(instruments.files())
+        before = set(files())
         for members, said in (([("tipLoad", "two")], "such as \"2 g\""),
                               ([("tipload", "2")], "unknown member 'tipload'")):
             with pytest.raises(PreparationError, match=said):
-                sheet.write(bench, "other", "bentson-0.035", members)
+                sheet.write(bench.wire, "other", "bentson-0.035", members)
         with pytest.raises(PreparationError, match="is there already"):
-            sheet.write(bench, "mine", "bentson-0.035", [])
-        assert set(instruments.files()) == before
+            sheet.write(bench.wire, "mine", "bentson-0.035", [])
+        assert set(files()) == before
     # By its name with a parameter file of another folder, too.
     (tmp_path / "scenes").mkdir()
     (tmp_path / "scenes" / "scene.json").write_text('{"solver": "direct", "instrument": "mine"}')
@@ -204,10 +204,10 @@ def test_a_data_sheet_makes_an_instrument_whose_tip_buckles_at_its_load(runner_c
 def test_a_data_sheet_replaces_the_stiffness_of_the_shaft(runner_command, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     with instruments.opened(runner_command) as bench:
-        sheet.write(bench, "core", "amplatz-0.035", [("coreDiameter", "0.50 mm"), ("coreModulus", "60 GPa")])
+        sheet.write(bench.wire, "core", "amplatz-0.035", [("coreDiameter", "0.50 mm"), ("coreModulus", "60 GPa")])
         core = bench.wire("core")
         assert core.bending[0] == pytest.approx(60e9 * math.pi * 0.5e-3**4 / 64.0)
-        sheet.write(bench, "rail", "core", [("supportForce", "1.20 N"), ("supportForce.span", "50 mm"),
+        sheet.write(bench.wire, "rail", "core", [("supportForce", "1.20 N"), ("supportForce.span", "50 mm"),
                                             ("supportForce.deflection", "5.0mm"), ("material", "linear")])
         rail = bench.wire("rail")
         assert rail.bending[0] == pytest.approx(1.2 * 0.05**3 / (48.0 * 0.005))
