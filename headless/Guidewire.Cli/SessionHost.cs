@@ -69,7 +69,7 @@ namespace Guidewire.Cli
                     TakePlaces(request, answer);
                     return;
                 case "drive":
-                    answer["tables"] = new JArray(Opened().DriveTables());
+                    answer["tables"] = new JArray(Enumerable.Range(0, Opened().InstrumentCount).Select(Opened().DriveTable));
                     return;
                 case "change":
                     _pictures = null;

@@ -28,7 +28,7 @@ namespace Guidewire.Io
         private readonly CancellationToken _cancellation;
         private readonly bool _limitsHubs;
         private readonly double[] _motion;     // of the hubs, where one moves
-        private SteeredMotion? _steered;       // of a session that records it
+        private DriveTableRecord? _steered;       // of a session that records it
 
         private SimulationSession(ParameterSource from, List<KeyValuePair<string, JToken>> overrides,
             ParameterHandler handler, bool isSteered, bool limitsHubs = false, CancellationToken cancellation = default)
@@ -231,21 +231,20 @@ namespace Guidewire.Io
 
         /// <summary>Records from now, the start, on how the hubs are steered. Their motion is then rounded by less than
         /// 2e-15 m and 5e-13 rad a step, so that a table repeats it.</summary>
-        internal void RecordSteering()
+        public void RecordSteering()
         {
-            _steered = new SteeredMotion(Parameters);
+            _steered = new DriveTableRecord(Parameters);
         }
 
-        /// <summary>Gives for each hub, the wire's first, the table for driveFile that repeats its motion.</summary>
-        /// <exception cref="ParameterException">None does; the line says why.</exception>
-        internal IEnumerable<string> DriveTables()
+        /// <summary>Gives the table for driveFile that repeats the motion of a hub since the start.</summary>
+        /// <param name="hub">0 the wire's, k that of catheter k.</param>
+        /// <exception cref="ParameterException">There is no such hub, or no table repeats it; the line says
+        /// why.</exception>
+        public string DriveTable(int hub)
         {
+            CheckHub(hub);
             string problem = _steered == null ? "this session does not record how it is steered" : _steered.Problem;
-            if (problem.Length > 0)
-            {
-                throw new ParameterException(problem);
-            }
-            return Enumerable.Range(0, InstrumentCount).Select(_steered!.ToCsv);
+            return problem.Length == 0 ? _steered!.ToCsv(hub) : throw new ParameterException(problem);
         }
 
         private void StepByMotion()
@@ -329,7 +328,7 @@ namespace Guidewire.Io
         {
             Simulation = Simulation.Restore(_handler.Values.Simulation, _start);
             Contrast?.Flow.Clear();
-            _steered = _steered == null ? null : new SteeredMotion(Parameters);
+            _steered = _steered == null ? null : new DriveTableRecord(Parameters);
         }
 
         /// <summary>Changes a parameter; the wire continues from its current state.</summary>

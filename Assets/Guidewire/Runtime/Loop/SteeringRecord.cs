@@ -1,8 +1,5 @@
 using System;
 using System.Collections.Generic;
-using System.Globalization;
-using System.Text;
-using Guidewire.Core;
 using Guidewire.Io;
 
 namespace Guidewire.Runtime
@@ -13,7 +10,6 @@ namespace Guidewire.Runtime
     public sealed class SteeringRecord
     {
         private const int Block = 4096;
-        private const double Constant = 1e-6;    // of a step: so long before and after its end the table stands still
 
         private readonly List<(int Step, int Entry, double Speed)> _speeds =
             new List<(int Step, int Entry, double Speed)>(Block);
@@ -29,46 +25,25 @@ namespace Guidewire.Runtime
         /// <summary>How many changes of the hubs' speeds it holds.</summary>
         public int Count => _speeds.Count;
 
-        /// <summary>The motion of a hub as a table for the key <c>driveFile</c>: time, insertion and rotation in s, m
-        /// and rad.</summary>
-        /// <param name="parameters">Those of the run.</param>
-        /// <param name="instrument">0 the wire, k catheter k.</param>
-        /// <exception cref="InvalidOperationException">Parameters were changed in the run, which no table
-        /// says.</exception>
-        public string ToDriveTable(SimulationParameters parameters, int instrument = 0)
-        {
-            if (_changes.Count > 0)
-            {
-                throw new InvalidOperationException("parameters were changed in step " + _changes[0].Step
-                    + ": a table holds the motion of a hub alone");
-            }
-            double dt = parameters.Method.TimeStep;
-            double[] speeds = new double[2];
-            double[] moved = new double[2];
-            var text = new StringBuilder("time,insertion,rotation\n0.0,0.0,0.0\n");
-            int next = 0;
-            Add(text, Constant * dt, moved);
-            for (int step = 0; step < _steps; step++)
-            {
-                for (; next < _speeds.Count && _speeds[next].Step <= step; next++)
-                {
-                    int own = _speeds[next].Entry - 2 * instrument;
-                    if (own == 0 || own == 1)
-                    {
-                        speeds[own] = _speeds[next].Speed;
-                    }
-                }
-                moved[0] += parameters.Scene.MetresPerUnit * (speeds[0] * dt);
-                moved[1] += speeds[1] * dt * Math.PI / 180.0;
-                // The core's time differs from a multiple of dt by roundings: around each the value is constant.
-                Add(text, (step + 1 - Constant) * dt, moved);
-                Add(text, (step + 1 + Constant) * dt, moved);
-            }
-            return text.ToString();
-        }
+        /// <summary>The session that is recorded; null before the run is open.</summary>
+        internal SimulationSession? Session { get; set; }
 
-        private static void Add(StringBuilder text, double time, double[] moved) => text.AppendFormat(
-            CultureInfo.InvariantCulture, "{0:R},{1:R},{2:R}\n", time, moved[0], moved[1]);
+        /// <summary>The motion of a hub as a table for the key <c>driveFile</c>: time, insertion and rotation in s, m
+        /// and rad. A run that it drives has the same bits.</summary>
+        /// <param name="instrument">0 the wire, k catheter k.</param>
+        /// <exception cref="InvalidOperationException">No table says it, as where parameters were changed in the
+        /// run.</exception>
+        public string ToDriveTable(int instrument = 0)
+        {
+            try
+            {
+                return (Session ?? throw new InvalidOperationException("no run is open")).DriveTable(instrument);
+            }
+            catch (ParameterException error)
+            {
+                throw new InvalidOperationException(error.Message);
+            }
+        }
 
         internal void Add(int step, double[] speeds)
         {

@@ -266,6 +266,14 @@ namespace Guidewire.Runtime
         private bool Open()
         {
             SimulationSession session = _open(text => _progress = text, _cancellation);
+            if (_recording != null || _replay != null)
+            {
+                session.RecordSteering();    // its motion is rounded, that of a replay in the same way
+            }
+            if (_recording != null)
+            {
+                _recording.Session = session;
+            }
             Compilation.Wait();
             _mine = new WireState(session);
             _exchange = new StateExchange(new WireState(session));

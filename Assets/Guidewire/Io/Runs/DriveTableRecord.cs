@@ -11,7 +11,7 @@ namespace Guidewire.Io
     /// its values. The two are the same double where the displacement is a multiple of 2^-48 m, since sums of those are
     /// exact up to 16 m. So the steering of a recorded session is rounded to such displacements (3.6e-15 m), and turns
     /// to multiples of 2^-40 rad.</remarks>
-    internal sealed class SteeredMotion
+    internal sealed class DriveTableRecord
     {
         private const double Grain = 1.0 / (1L << 48);      // m
         private const double TurnGrain = 1.0 / (1L << 40);  // rad
@@ -38,7 +38,7 @@ namespace Guidewire.Io
         }
 
         /// <summary>Begins the record of a run at its start.</summary>
-        public SteeredMotion(SimulationParameters parameters)
+        public DriveTableRecord(SimulationParameters parameters)
         {
             IReadOnlyList<Catheter> catheters = parameters.Scene.Catheters;
             _timeStep = parameters.Method.TimeStep;
