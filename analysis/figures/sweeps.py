@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 
-from analysis.figures.captions import sweep_caption
+from analysis.figures.sweep_captions import sweep_caption
 from analysis.slowest_mode import SlowestMode
 from analysis.tables import Spread, StudyRow, StudyTable
 from guidewire.figures.style import captioned, letter, new_figure, styled

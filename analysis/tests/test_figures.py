@@ -17,7 +17,7 @@ from matplotlib.figure import Figure
 from matplotlib.font_manager import FontProperties
 
 from analysis.figures import FIGURES
-from analysis.figures.captions import sweep_caption
+from analysis.figures.sweep_captions import sweep_caption
 from analysis.figures.default_run import draw_time_evolution, read_default_run
 from analysis.figures.sweeps import VIEWS, draw_sweep
 from analysis.tables import StudyTable, read_table

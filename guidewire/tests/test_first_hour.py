@@ -189,7 +189,7 @@ def test_every_line_of_contributing_works_in_a_clone(clone: Path, locale: str) -
     key = '            Key.Number("ownDrag", "1/s", NumberRange.NotNegative, "a drag of my own"),\n'
     drag = "        /// <summary>A drag.</summary>\n        public double OwnDrag { get; set; }\n\n"
     sources = clone / "Assets" / "Guidewire"
-    entries = changed(sources / "Io/Parameters/Entries.cs", '            Key.Number("massDamping"', key)
+    entries = changed(sources / "Io/Parameters/Keys.cs", '            Key.Number("massDamping"', key)
     with entries, changed(sources / "Core/Parameters/MaterialParameters.cs", "        /// <summary>", drag):
         assert "ownDrag: a number >= 0 (1/s)" in door.type("keys", "ownDrag")
         said = door.type("run", "params/cantilever.json", "--set", "ownDrag=1", "--set", "maxSimulationSteps=1",
