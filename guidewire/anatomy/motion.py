@@ -33,6 +33,7 @@ _STEPS = 30  # of Newton's method
 _SPACING = 2e-3  # m
 _PER_PIECE = 8  # points that the page draws, for each piece of a beam's centreline in a log
 _CHUNK = 4000  # points at once
+_NEAREST = 48  # points of the centreline, beyond which weights are below rounding
 _BEAT = ((0.0, 0.0), (0.08, 0.12), (0.2, 0.7), (0.32, 1.0), (0.4, 0.98), (0.5, 0.45), (0.6, 0.12), (0.7, 0.08),
          (0.8, 0.08), (0.9, 0.04), (1.0, 0.0))  # phase of a cycle, share of the contraction
 
@@ -81,6 +82,7 @@ class VesselMotion:
         own = [motion] + ([motion["breathing"]] if "breathing" in motion else [])
         self._cycles = [self._cycle(one) for one in own]
         self._rest = np.concatenate(self._branches) if self._branches else np.zeros((1, 3))
+        self._near_rest = cKDTree(self._rest)
         self.set_pace(motion)
 
     def set_pace(self, motion: Mapping[str, Any]) -> None:
@@ -129,6 +131,7 @@ class VesselMotion:
                 tangent = one.apply(tangent)
                 turn = one * turn
         self._now, self._tangent, self._maps = now, tangent, _maps(turn, tangent, scale, stretch)
+        self._near = cKDTree(now)
 
     def at_rest(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Where points (n, 3) are on the vessel at rest, and the derivatives (n, 3, 3)."""
@@ -139,7 +142,7 @@ class VesselMotion:
         """Where points (n, 3) of the vessel at rest are now."""
         if len(points) > _CHUNK:
             return np.concatenate([self.moved(points[k:k + _CHUNK]) for k in range(0, len(points), _CHUNK)])
-        near = np.argmin(np.linalg.norm(points[:, None] - self._rest, axis=2), axis=1)
+        near = self._near_rest.query(points)[1]
         x = self._now[near] + np.linalg.solve(self._maps[near], (points - self._rest[near])[..., None])[..., 0]
         for _ in range(_STEPS):
             rest, slope = self.at_rest(x)
@@ -150,18 +153,20 @@ class VesselMotion:
         return x
 
     def _at_rest(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        v = x[:, None] - self._now
+        near = self._near.query(x, np.arange(1, 1 + min(_NEAREST, len(self._now))))[1]
+        tangent, bend, maps = self._tangent[near], self._bend[near], self._maps[near]
+        v = x[:, None] - self._now[near]
         exponent = 0.5 * (v**2).sum(axis=2) / self._spacing**2
         weights = np.exp(exponent.min(axis=1, keepdims=True) - exponent)
         weights /= weights.sum(axis=1, keepdims=True)
-        along = np.einsum("nkj,kj->nk", v, self._tangent)
-        images = self._rest + np.einsum("kij,nkj->nki", self._maps, v) + along[..., None]**2 * self._bend
-        rest = np.einsum("nk,nki->ni", weights, images)
-        slope = np.einsum("nk,kij->nij", weights, self._maps) \
-            + 2.0 * np.einsum("nk,ki,kj->nij", weights * along, self._bend, self._tangent)
+        along = (v * tangent).sum(axis=2)
+        images = self._rest[near] + (maps @ v[..., None])[..., 0] + along[..., None]**2 * bend
+        rest = (weights[..., None] * images).sum(axis=1)
+        slope = np.einsum("nk,nkij->nij", weights, maps) \
+            + 2.0 * np.swapaxes((weights * along)[..., None] * bend, 1, 2) @ tangent
         rate = -weights[..., None] * v / self._spacing**2
         rate -= weights[..., None] * rate.sum(axis=1, keepdims=True)
-        return rest, slope + np.einsum("nki,nkj->nij", images - rest[:, None], rate)
+        return rest, slope + np.swapaxes(images - rest[:, None], 1, 2) @ rate
 
     def _cycle(self, own: dict[str, Any]) -> _Cycle:
         period, phase = _pace_of(own)
