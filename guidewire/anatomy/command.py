@@ -13,7 +13,7 @@ from guidewire.anatomy import output, reading
 from guidewire.anatomy.centreline import Centreline, find_centreline
 from guidewire.anatomy.centreline_files import centreline_names, write_centreline
 from guidewire.anatomy.ends import open_ends, without_caps
-from guidewire.anatomy.inspection import Inspection, inspect
+from guidewire.anatomy.inspection import Inspection, Unit, inspect
 from guidewire.anatomy.masks import Taking
 from guidewire.anatomy.mesh import AnatomyError, Mesh
 from guidewire.anatomy.patient import Axes, axes_named
@@ -58,12 +58,11 @@ def _run(arguments: argparse.Namespace, folder: Path) -> int:
         return _tell(folder, source, found, source.mesh, None, None, None, arguments)
     if not found.unit.is_sure:
         raise AnatomyError(f"unit: {found.unit.reason}")
-    repaired = repair(source.mesh)
-    if source.faces is not None:
-        repaired = without_caps(repaired, source.faces)
-    if arguments.open:
-        repaired = open_ends(repaired, None if arguments.open == "all" else list(map(int, arguments.open.split(","))))
-    line = find_centreline(repaired.mesh, repaired.rims)
+    repaired, line = _lumen(source, arguments)
+    moving = None
+    if arguments.cycle:
+        moving = output.MOTION
+        found.notes += _write_motion(folder, source, repaired, line, found.unit, arguments)
     narrow = float((line.radii[line.inner()] < 2.0 * source.voxel).mean())
     if narrow:
         found.notes.append(f"along {narrow:.0%} of the centreline the radius is below two voxels: the wall is uncertain"
@@ -79,9 +78,40 @@ def _run(arguments: argparse.Namespace, folder: Path) -> int:
     output.write_vessel(folder, repaired.mesh, line, found.unit, source)
     write_centreline(folder, line, found.unit, source.axes)
     output.write_scene(folder, output.scene(line, found.unit, inlet, target, wire, source.axes, arguments.instrument,
-                                             arguments.catheter))
+                                             arguments.catheter, moving))
     choice = Choice(inlet, target, arguments.inlet is not None, arguments.target is not None)
     return _tell(folder, source, found, repaired.mesh, repaired, line, choice, arguments)
+
+
+def _lumen(source: reading.Source, arguments: argparse.Namespace,
+           root: np.ndarray | None = None) -> tuple[Repaired, Centreline]:
+    """Return the repaired wall and its centreline, which begins at the widest end, or near a point."""
+    repaired = repair(source.mesh)
+    if source.faces is not None:
+        repaired = without_caps(repaired, source.faces)
+    if arguments.open:
+        repaired = open_ends(repaired, None if arguments.open == "all" else list(map(int, arguments.open.split(","))))
+    return repaired, find_centreline(repaired.mesh, repaired.rims, root)
+
+
+def _write_motion(folder: Path, source: reading.Source, repaired: Repaired, line: Centreline, unit: Unit,
+                  arguments: argparse.Namespace) -> list[str]:
+    """Write the motion from the phases of a cycle; return what there is to say of it."""
+    from guidewire.anatomy.cycle import Phase, write_motion
+
+    if arguments.file is None or len(arguments.cycle) < 2:
+        raise AnatomyError("--cycle needs FILE, the vessel at rest, and at least two files of later phases")
+    phases = [Phase(source.name, repaired.mesh, line)]
+    for file in arguments.cycle:
+        try:
+            other = reading.read(file, arguments.unit, axes_named(arguments.axes) if arguments.axes else None,
+                                 _taking(arguments), arguments.series, arguments.label_names)
+            wall, tree = _lumen(other, arguments, phases[-1].line.points[0])
+        except AnatomyError as error:
+            raise AnatomyError(str(error) if str(file) in str(error) else f"{file}: {error}") from error
+        phases.append(Phase(other.name, wall.mesh, tree))
+    folder.mkdir(parents=True, exist_ok=True)
+    return write_motion(folder / output.MOTION, phases, unit)
 
 
 def diameter_of(instrument: str) -> float:
@@ -149,7 +179,8 @@ def _tell(folder: Path, source: reading.Source, found: Inspection, mesh: Mesh, r
         print(text)
     written = [output.REPORT, *pictures]
     if line is not None:
-        written = [output.MESH, output.ANATOMY, output.SCENE, *centreline_names(source.axes), *written]
+        written = [output.MESH, output.ANATOMY, output.SCENE, *centreline_names(source.axes),
+                   *([output.MOTION] if arguments.cycle else []), *written]
         print(f"next: {DOOR} run {os.path.relpath(folder / output.SCENE)} --check")
     print(f"written: {', '.join(written)} in {os.path.relpath(folder)}")
     return 0

@@ -39,18 +39,20 @@ _BEAT = ((0.0, 0.0), (0.08, 0.12), (0.2, 0.7), (0.32, 1.0), (0.4, 0.98), (0.5, 0
 
 
 def write_centreline(file: Path, rest: list[np.ndarray], displaced: np.ndarray | list[np.ndarray],
-                     phases: np.ndarray) -> None:
+                     phases: np.ndarray, scales: list[np.ndarray] | None = None) -> None:
     """Write the table of a `centreline`, in mm.
 
-    rest : (k, 3) of each branch; displaced : (phases, k, 3) of each branch, displacements; phases : from 0 to below 1.
+    rest : (k, 3) of each branch; displaced : (phases, k, 3) of each branch, displacements; phases : from 0 to below 1;
+    scales : (phases, k) of the sections of each branch, 1 where missing.
     """
     with open(file, "w", encoding="utf-8", newline="\n") as out:
-        out.write("branch,station_mm,phase,x_mm,y_mm,z_mm,dx_mm,dy_mm,dz_mm\n")
+        out.write("branch,station_mm,phase,x_mm,y_mm,z_mm,dx_mm,dy_mm,dz_mm" + (",scale\n" if scales else "\n"))
         for branch, (points, moved) in enumerate(zip(rest, displaced)):
             stations = _arc(points)
-            for phase, rows in zip(phases, moved):
-                for station, x, d in zip(stations, points, rows):
-                    numbers = [station, phase, *x, *d]
+            wide = scales[branch][..., None] if scales else np.empty((*moved.shape[:2], 0))
+            for phase, rows, sizes in zip(phases, moved, wide):
+                for station, x, d, size in zip(stations, points, rows, sizes):
+                    numbers = [station, phase, *x, *d, *size]
                     out.write(f"{branch}," + ",".join(f"{number:.6g}" for number in numbers) + "\n")
 
 

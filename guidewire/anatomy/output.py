@@ -21,7 +21,8 @@ from guidewire.anatomy.repair import Repaired
 from guidewire.runs.whole_files import write_whole
 
 MESH, ANATOMY, SCENE, REPORT, PICTURE = "vessel.obj", "anatomy.json", "scene.json", "report.md", "picture.png"
-TAKEN = "voxels.png"
+TAKEN, MOTION = "voxels.png", "motion.csv"
+_HEART_RATE = 60.0  # per minute, where nobody says it
 _SPEED, _TIME_STEP = 0.02, 0.05  # m/s, s: 1 mm a step
 _TIP, _BODY = 30.0, 5.0  # mm: length of the soft tip, with elements of 1 mm; length of the other elements
 _FLEXIBLE = 2.5  # mm: length of the elements of a longer flexible section
@@ -120,7 +121,8 @@ def default_target(line: Centreline, inlet: End, unit: Unit, diameter: float) ->
 
 
 def scene(line: Centreline, unit: Unit, inlet: End, target: End, diameter: float,
-          axes: Axes = Axes(), instrument: str | None = None, catheter: str | None = None) -> Mapping[str, Any]:
+          axes: Axes = Axes(), instrument: str | None = None, catheter: str | None = None,
+          motion: str | None = None) -> Mapping[str, Any]:
     """Parameters of a wire that is pushed from an inlet as far as a target; lengths in mm, the vessel's own axes.
 
     diameter : of the wire, mm.
@@ -128,6 +130,7 @@ def scene(line: Centreline, unit: Unit, inlet: End, target: End, diameter: float
     instrument, catheter : names of those that there are, in place of a wire of that diameter, and over it. The
     catheter's
         tip begins 30 mm behind the wire's.
+    motion : file of how the vessel moves.
     """
     path = line.path(inlet.point, target.point)
     way = 1e3 * unit.metres * line.length(path)
@@ -155,7 +158,8 @@ def scene(line: Centreline, unit: Unit, inlet: End, target: End, diameter: float
         "solver": "direct", **wire, **over,
         "massDamping": 20.0, "proximalEnd": "clamped", "drive": "displace", "insertionSpeed": _SPEED,
         "hubForceLimit": _HUB_FORCE,
-        "vessel": {"shape": "mesh", "file": MESH, "metresPerUnit": unit.metres, "anatomy": ANATOMY},
+        "vessel": {"shape": "mesh", "file": MESH, "metresPerUnit": unit.metres, "anatomy": ANATOMY,
+                   **({"motion": {"heartRate": _HEART_RATE, "centreline": motion}} if motion else {})},
         **({"patientAxes": axes.of_vessel()} if axes.is_known else {}),
         "sheath": {}, "inlet": inlet.number, "target": target.number, "contactDistance": _CONTACT_DISTANCE,
         "timeStep": _TIME_STEP, "deltaThreshold": 0.0,

@@ -404,6 +404,9 @@ def _add_anatomy(commands: Commands) -> None:
                                                                          "the vessel's axes, mm")
     anatomy.add_argument("--error", type=above_zero, metavar="MM", help="of a mask: largest displacement by decimation "
                                                                         "(a tenth of a voxel)")
+    anatomy.add_argument("--cycle", nargs="+", type=path, metavar="FILE",
+                         help="the vessel at later phases, evenly spaced over a cycle of which FILE is the first: it "
+                              "moves")
     anatomy.add_argument("--inlet", metavar="END", help="number or name of the end that the wire starts at (1)")
     anatomy.add_argument("--target", metavar="END",
                          help="number or name of the end that it is pushed to (of those about as far as the "
