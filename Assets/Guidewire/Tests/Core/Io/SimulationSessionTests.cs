@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.IO;
+using System.Linq;
 using Guidewire.Io;
 using Newtonsoft.Json.Linq;
 using NUnit.Framework;
@@ -164,6 +165,50 @@ namespace Guidewire.Core.Tests
             Assert.That((int)summary["steps"]!, Is.EqualTo(3));
             Assert.That(((string?)summary["parameterHash"])!.Length, Is.EqualTo(64));
             Assert.That(summary["notes"], Is.Empty);
+        }
+
+        [Test]
+        public void DriveTable_MovesTheHubWithTheSameBits_AlsoAfterAReset()
+        {
+            string[] keys = { "solver=direct", "drive=displace", "proximalEnd=clamped", "timeStep=0.003",
+                "maxSimulationSteps=1000" };
+            using SimulationSession steered = Open("", true, keys);
+            steered.RecordSteering();
+            steered.Step(1.0, 0.1);
+            steered.Reset();
+            var random = new Random(4);
+            for (int k = 0; k < 40; k++)
+            {
+                steered.Step(2.0 * random.NextDouble() - 0.5, 0.2 * random.NextDouble());
+            }
+            string table = Path.Combine(Folder, "table.csv");
+            File.WriteAllText(table, steered.DriveTable(0));
+            using SimulationSession driven = Open("", false, keys.Append("driveFile=" + table).ToArray());
+            for (int k = 0; k < 40; k++)
+            {
+                driven.Step(0.0, 0.0);
+            }
+            Assert.That(driven.Simulation.State.Positions, Is.EqualTo(steered.Simulation.State.Positions));
+            Assert.That(driven.Simulation.State.Orientations, Is.EqualTo(steered.Simulation.State.Orientations));
+            Assert.Throws<ParameterException>(() => steered.DriveTable(1));
+        }
+
+        [Test]
+        public void PushOfARecordedSession_IsNearWhatIsAsked_AndItsSumsAreExact(
+            [Values(1e-3, 0.0254, 1.0, 1.0 / 3e3)] double metres)
+        {
+            foreach (double wanted in new[] { 0.4, -0.04, 0.0, 1.2345e-3, -7e-7, 93.0 })
+            {
+                double push = DriveTableRecord.ExactPush(wanted, metres);
+                double displacement = metres * push;
+                Assert.That(push, Is.EqualTo(wanted).Within(1e-12 / metres));
+                double sum = 0.0;
+                for (int k = 1; k <= 100 && Math.Abs(k * displacement) < 12.0; k++)
+                {
+                    sum += displacement;
+                    Assert.That(sum - (k - 1) * displacement, Is.EqualTo(displacement), "m");
+                }
+            }
         }
 
         [TestCase("timeStep")]
