@@ -85,6 +85,8 @@ class VesselMotion:
         self._cycles = [self._cycle(one) for one in own]
         self._rest = np.concatenate(self._branches) if self._branches else np.zeros((1, 3))
         self._near_rest = cKDTree(self._rest)
+        self._counts = [len(branch) for branch in self._branches]
+        self._curve = _Curve(self._rest, self._counts)
         self.set_pace(motion)
 
     def set_pace(self, motion: Mapping[str, Any]) -> None:
@@ -120,7 +122,7 @@ class VesselMotion:
                 now = now + value[:, :3]
                 turn = Rotation.from_rotvec(value[:, 3:6]) * turn
                 scale = scale * (1.0 + value[:, 6])
-        before, after = _Curve(self._rest, self._branches), _Curve(now, self._branches)
+        before, after = self._curve, _Curve(now, self._counts)
         stretch = np.where(before.length > 0.0, after.length / np.maximum(before.length, 1e-300), 1.0)
         turn = turn * _shortest(before.tangent, after.tangent)
         tangent = after.tangent
@@ -273,33 +275,31 @@ def _pace_of(cycle: Mapping[str, Any]) -> tuple[float, float]:
 
 
 class _Curve:
-    """Tangents, curvatures and lengths of the pieces beside each point, branch by branch, by parabolas."""
+    """Tangents, curvatures and lengths of the pieces beside each point, branch by branch, by parabolas.
 
-    def __init__(self, points: np.ndarray, branches: list[np.ndarray]) -> None:
-        self.tangent = np.zeros_like(points)
-        self.curvature = np.zeros_like(points)
+    counts : points of each branch, one branch behind the other.
+    """
+
+    def __init__(self, points: np.ndarray, counts: list[int]) -> None:
+        self.tangent, self.curvature = np.zeros_like(points), np.zeros_like(points)
         self.length = np.zeros(len(points))
-        first = 0
-        for branch in branches:
-            own = slice(first, first + len(branch))
-            self.tangent[own], self.curvature[own], self.length[own] = _parabolas(points[own])
-            first += len(branch)
-
-
-def _parabolas(x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    steps = np.diff(x, axis=0)
-    size = np.linalg.norm(steps, axis=1)
-    along = steps / size[:, None]
-    if len(x) == 2:
-        return np.repeat(along, 2, axis=0), np.zeros_like(x), np.repeat(size, 2)
-    both = size[:-1] + size[1:]
-    curvature = 2.0 * np.diff(along, axis=0) / both[:, None]
-    middle = along[:-1] * size[1:, None] + along[1:] * size[:-1, None]
-    first = along[0] - 0.5 * size[0] * curvature[0]
-    last = along[-1] + 0.5 * size[-1] * curvature[-1]
-    tangent = np.concatenate([first[None], middle, last[None]])
-    tangent /= np.linalg.norm(tangent, axis=1)[:, None]
-    return tangent, np.concatenate([curvature[:1], curvature, curvature[-1:]]), np.r_[both[0], both, both[-1]]
+        if not counts:
+            return
+        last = np.cumsum(counts) - 1
+        first = last - np.array(counts) + 1
+        steps = points[1:] - points[:-1]
+        steps[last[:-1]] = 1.0    # from one branch to the next: of no account
+        size = np.linalg.norm(steps, axis=1)
+        along = steps / size[:, None]
+        both = size[:-1] + size[1:]
+        self.length[1:-1], self.curvature[1:-1] = both, 2.0 * (along[1:] - along[:-1]) / both[:, None]
+        self.tangent[1:-1] = along[:-1] * size[1:, None] + along[1:] * size[:-1, None]
+        is_long = np.array(counts) > 2
+        for end, beside, piece, sign in ((first, first + 1, first, -0.5), (last, last - 1, last - 1, 0.5)):
+            self.length[end] = np.where(is_long, self.length[beside], size[piece])
+            self.curvature[end] = np.where(is_long[:, None], self.curvature[beside], 0.0)
+            self.tangent[end] = along[piece] + sign * size[piece, None] * self.curvature[end]
+        self.tangent /= np.linalg.norm(self.tangent, axis=1)[:, None]
 
 
 def _shortest(one: np.ndarray, two: np.ndarray) -> Rotation:
