@@ -68,7 +68,7 @@ namespace Guidewire.Core.Tests
             SimulationSession run = Open("'solver': 'direct', 'instrument': 'workhorse-0.014', 'guidewireLength': 320,"
                 + " 'numberRodElements': 64, 'guidewireOffset': -150, 'massDamping': 20, 'proximalEnd': 'clamped',"
                 + " 'drive': 'displace', 'insertionSpeed': 0.03, 'hubForceLimit': 0.02, 'timeStep': 0.01,"
-                + " 'deltaThreshold': 0, 'maxSimulationSteps': 12, 'vessel': {'shape': 'tube', 'smooth': true,"
+                + " 'deltaThreshold': 0, 'maxSimulationSteps': 4, 'vessel': {'shape': 'tube', 'smooth': true,"
                 + " 'openStart': true, 'openEnd': true, 'radius': 2, 'frictionCoefficient': 0.1,"
                 + " 'knots': [[0, 0, -5], [0, 0, 300]]},"
                 + " 'catheters': [{'start': 215, 'length': 80, 'elements': 16, 'hubForceLimit': 0.02, 'wireRadius':"
