@@ -3,10 +3,10 @@
     python3 guidewire.py python experiments/breaks/breaks.py [NUMBER ...]
 
 breaks.json lists the breaks: file, text, what stands in its place, and in words what is wrong then. Those of C# are
-compiled together, in a copy of the repository, with `Breaks.Is(@)` in each; tests run until one fails. Those of Python
-are made one after the other, and pytest runs what the break names in "tests". A line for each break says which test
-found it; the exit code is 1 where one was missed. Without numbers all are tried. The unbroken code
-comes first, in which nothing may be found.
+compiled together, in a copy of the repository, with `Breaks.Is(@)` in each; tests run until one fails, first the
+classes that the break names in "tests". Those of Python are made one after the other, and pytest runs what the break
+names there. A line for each break says which test found it; the exit code is 1 where one was missed. Without numbers
+all are tried. The unbroken code comes first, in which nothing may be found.
 """
 
 from __future__ import annotations
@@ -68,7 +68,8 @@ def try_compiled(copy: Path, rows: Sequence[dict[str, Any]], numbers: Sequence[i
     while left:
         answered = 0
         # After a break that hangs a new host goes on; it measures first how long the unbroken code takes.
-        with subprocess.Popen(["dotnet", host / "bin/Release/net10.0/Breaks.dll", "0", *map(str, left[left[0] == 0:])],
+        asked = [f"{k}:{','.join(rows[k - 1].get('tests', []))}" for k in left[left[0] == 0:]]
+        with subprocess.Popen(["dotnet", host / "bin/Release/net10.0/Breaks.dll", "0:", *asked],
                               stdout=subprocess.PIPE, text=True) as host_of_tests:
             for line in host_of_tests.stdout or ():
                 number, tab, text = line.rstrip("\n").partition("\t")
