@@ -59,7 +59,9 @@ namespace Guidewire.Core.Tests
             // From just inside to just outside, less than the wire is thick, through one wall of two.
             double normal = Math.PI / Sides + Math.Floor(side / (2.0 * Math.PI / Sides)) * 2.0 * Math.PI / Sides;
             Vector3d[] from = Straight((Apothem - depth) * Across(normal));
-            AssertCounted(Both, from, Straight((Apothem + depth) * Across(normal)));
+            Vector3d[] to = Straight((Apothem + depth) * Across(normal));
+            AssertCounted(Both, from, to);
+            Assert.That(Count(Both, Straight(), from, to), Is.EqualTo(Count(Both, from, to)), "after another part");
         }
 
         [Test]
@@ -101,15 +103,15 @@ namespace Guidewire.Core.Tests
             Assert.That(Count(radii, from, to), Is.EqualTo(expected));
         }
 
-        // As the method has it counted: in a step of two parts, the second without motion.
-        private static long Count(double[] radii, Vector3d[] from, Vector3d[] to)
+        // As the method has it counted: the last part of the step is without motion.
+        private static long Count(double[] radii, params Vector3d[][] shapes)
         {
             var record = new ContactRecord(N + 1);
-            Monitor(radii, from, to).EndStep(Shape(to), record);
+            Monitor(radii, shapes).EndStep(Shape(shapes[shapes.Length - 1]), record);
             return record.Passages;
         }
 
-        private static WallMonitor Monitor(double[] radii, Vector3d[] from, Vector3d[] to)
+        private static WallMonitor Monitor(double[] radii, params Vector3d[][] shapes)
         {
             MaterialRod rod = MaterialRod.Round(N, N * Spacing, 0.05, 1e6, 1e6, 1e3);
             var walls = new ContactShape[radii.Length];
@@ -117,9 +119,11 @@ namespace Guidewire.Core.Tests
             var barrier = new BarrierEnergy(rod, walls, 1.0, new Barrier(0.02, 10.0));
             var terms = new WallTerms(barrier, null, new SupportSpring(rod, HubLimit.None), false);
             var monitor = new WallMonitor(rod, terms, 1.0);
-            monitor.BeginStep(Shape(from));
-            monitor.AddPart(Shape(to), 0.0);
-            monitor.AddPart(Shape(to), 0.0);
+            monitor.BeginStep(Shape(shapes[0]));
+            for (int k = 1; k <= shapes.Length; k++)
+            {
+                monitor.AddPart(Shape(shapes[Math.Min(k, shapes.Length - 1)]), 0.0);
+            }
             return monitor;
         }
 
