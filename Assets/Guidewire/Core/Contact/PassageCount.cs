@@ -37,7 +37,6 @@ namespace Guidewire.Core
             _elements = elementCount;
             _clearance = SweptSearch.ClearanceFor(_bounds.Radius);
             Array.Fill(_hint, -1);
-            Array.Clear(_left, 0, _left.Length);
         }
 
         /// <summary>Counts the passages so far.</summary>

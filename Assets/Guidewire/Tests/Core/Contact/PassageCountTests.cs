@@ -87,13 +87,32 @@ namespace Guidewire.Core.Tests
             return Tube.Nearest(a, b, 1e-9, ref hint, out _);
         }
 
+        // The same whichever end of the wire is its first, and after a step that was given up, in which it went aside
+        // through the wall.
         private static long Count(Vector3d[] from, Vector3d[] to)
         {
             var count = new PassageCount(new Touching(), Elements);
             count.BeginStep();
+            count.AddPart(from, Moved(from, 9.0 * Vector3d.UnitX));
+            long total = Count(count, from, to);
+            Assert.That(Count(count, Reversed(from), Reversed(to)), Is.EqualTo(total), "from the other end");
+            return total;
+        }
+
+        private static long Count(PassageCount count, Vector3d[] from, Vector3d[] to)
+        {
+            long before = count.Total;
+            count.BeginStep();
             count.AddPart(from, to);
             count.EndStep(from, to);
-            return count.Total;
+            return count.Total - before;
+        }
+
+        private static Vector3d[] Reversed(Vector3d[] x)
+        {
+            var reversed = (Vector3d[])x.Clone();
+            Array.Reverse(reversed);
+            return reversed;
         }
 
         // Every element is asked.

@@ -30,6 +30,10 @@ namespace Guidewire.Core.Tests
             Assert.That(session.Parameters.Drive.HubForceLimit, Is.EqualTo(limit).Within(1e-6).Percent);
             session.Set("massDamping", "3");
             Assert.That(session.Parameters.Drive.HubForceLimit, Is.EqualTo(limit).Within(1e-6).Percent);
+            // The widest place counts, 6 mm at the hub, whatever the lumen is at the tip.
+            using SimulationSession funnel = Open(true, default, "vessel.radius=[6, 2, 2]", "guidewireOffset=0",
+                "vessel.knots=[[0, 0, 0], [0, 0, 50], [0, 0, 200]]");
+            Assert.That(funnel.Parameters.Drive.HubForceLimit, Is.EqualTo(0.5 * limit).Within(1.0).Percent);
         }
 
         [Test]

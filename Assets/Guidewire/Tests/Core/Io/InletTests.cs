@@ -67,6 +67,32 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
+        public void SessionAtItsStart_HasNoContrastAgent()
+        {
+            using SimulationSession session = SimulationSession.Open(Scene(Slant, 1, null), GivenKeys.None, true);
+            session.Contrast!.Inject(null, 1.0, 5.0);
+            session.Step(0.1, 0.0);
+            Assert.That(session.Contrast.Flow.Injected, Is.EqualTo(5.0 * 0.05).Within(1e-9), "5 ml/s for a step");
+            session.Reset();
+            Assert.That((session.Contrast.Flow.Injected, session.Contrast.Flow.IsInjecting), Is.EqualTo((0.0, false)));
+        }
+
+        [Test]
+        public void Summary_SaysHowFarTheTipCame_ThereAndBack()
+        {
+            string file = Scene(Slant, 1, null);
+            JObject parameters = JObject.Parse(File.ReadAllText(file));
+            parameters.Remove("insertionSpeed");
+            parameters["driveFile"] = "drive.csv";
+            File.WriteAllText(Path.Combine(Folder, "drive.csv"),
+                "time,insertion,rotation\n0,0,0\n0.5,0.01,0\n1,0.004,0\n");
+            File.WriteAllText(file, parameters.ToString());
+            JToken line = Run(file, "run")["centreline"]!;
+            Assert.That((double)line["farthest"]!, Is.EqualTo(14.0).Within(0.3), "4 mm before, and 10 mm");
+            Assert.That((double)line["distance"]!, Is.EqualTo(8.0).Within(0.3));
+        }
+
+        [Test]
         public void Summary_SaysThatTheTargetWasNotReached()
         {
             JToken line = Run(Scene(Slant, 1, 2), "run")["centreline"]!;

@@ -54,6 +54,9 @@ namespace Guidewire.Core.Tests
             Assert.That(shaft.LineDensity, Is.EqualTo(1200.0 * area).Within(1e-12));
             Assert.That(shaft.StretchStiffness, Is.EqualTo(800e6 * area).Within(1e-9 * 800e6 * area));
             Assert.That((string?)handler.ToJson()["instrument"], Is.EqualTo("own"));
+            // Of a homogeneous section of the same EI: EA = 4 EI/(r^2 + a^2).
+            Assert.That(CrossSection.At(simulation.Material, 999.0).StretchStiffness,
+                Is.EqualTo(4.0 * 1e-4 / 1.25e-6).Within(1e-9));
         }
 
         // A solid core of one material: EI goes with the fourth power of its diameter. The last section has its own.

@@ -1,3 +1,4 @@
+using System;
 using System.IO;
 using System.Linq;
 using Guidewire.Io;
@@ -45,6 +46,15 @@ namespace Guidewire.Core.Tests
             Assert.That(with.Warnings[0], Does.Contain("frictionSpeed is no longer a key").And.Contain("elasticSlip"));
             Assert.That(with.Hash, Is.EqualTo(Load("{\"solver\": \"direct\"}").Hash));
             Assert.That(ParameterTable.Find("frictionSpeed"), Is.Null);
+        }
+
+        [TestCase(0.07, 0.01, 7)]    // 0.07/0.01 is above 7 by rounding
+        [TestCase(0.071, 0.01, 8)]
+        [TestCase(0.7, 0.1, 7)]
+        public void Duration_IsTheLeastStepsThatReachIt_NotOneMoreByRounding(double duration, double step, int steps)
+        {
+            Assert.That(Load(FormattableString.Invariant($"{{\"duration\": {duration}, \"timeStep\": {step}}}"))
+                .Values.Simulation.Method.MaxSimulationSteps, Is.EqualTo(steps));
         }
 
         [TestCase("{\"VerletIntegration\": false}", Integrator.Euler)]

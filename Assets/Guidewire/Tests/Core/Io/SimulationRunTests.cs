@@ -1,6 +1,8 @@
 using System.Collections.Generic;
 using System.Globalization;
 using System.IO;
+using System.IO.Compression;
+using System.Linq;
 using System.Threading;
 using Guidewire.Io;
 using Newtonsoft.Json.Linq;
@@ -63,7 +65,7 @@ namespace Guidewire.Core.Tests
                 ("logOrientations", true)), Results, null).Execute(Existing.Replace);
             JObject log = Read("positions.json");
             Assert.That(((IDictionary<string, JToken?>)log).Keys, Is.EqualTo(new[] { "0", "4", "8", "10" }));
-            Assert.That(((JObject)log["8"]!["sphere"]!).Count, Is.EqualTo(1));
+            Assert.That(((JObject)log["8"]!["sphere"]!).Properties().Single().Name, Is.EqualTo("30"));
             Assert.That(((JObject)log["8"]!["orientation"]!).Count, Is.EqualTo(30));
         }
 
@@ -103,6 +105,102 @@ namespace Guidewire.Core.Tests
             Assert.That(IsReused(handler, 0), Is.False, "timed and untimed");
             Assert.That(IsReused(handler, 1), Is.False, "another repeat");
             Assert.That(IsReused(Load(("maxSimulationSteps", 4)), 1), Is.False);
+            File.Delete(Path.Combine(Results, "positions.json"));
+            Assert.That(IsReused(handler, null), Is.False, "its log is gone");
+        }
+
+        // On a floor on which it slips, so that no two of its numbers are the same.
+        [Test]
+        public void NumbersOfTheSummary_AreThoseOfTheirNames()
+        {
+            Simulation simulation = RunOnAFloor(0.3);
+            JObject summary = Read("summary.json");
+            ContactRecord contacts = simulation.Contacts!;
+            Assert.That((double)summary["largestContactForce"]!,
+                Is.EqualTo(contacts.LargestForce).And.GreaterThan(0.0));
+            Assert.That((double)summary["largestWallForce"]!,
+                Is.EqualTo(contacts.LargestTotal).And.GreaterThan(contacts.LargestForce));
+            Assert.That((double)summary["driveShortfall"]!, Is.EqualTo(contacts.DriveShortfall).And.GreaterThan(0.0));
+            RunExtremes extremes = simulation.Report()!.Extremes!;
+            Assert.That(extremes.AxialTorqueTime, Is.Not.EqualTo(extremes.AxialForceTime));
+            Assert.That(CountEqual((JObject)summary["extremes"]!, extremes), Is.GreaterThan(15));
+            Assert.That(CountEqual((JObject)summary["hub"]!, simulation.Hub()!), Is.GreaterThan(5));
+        }
+
+        [Test]
+        public void Log_HasTheForceOfEveryNodeThatIsTouched([Values(0.0, 0.3)] double friction)
+        {
+            Vector3d[] forces = RunOnAFloor(friction).Contacts!.Forces;
+            JToken logged = Read("positions.json")["12"]!["contact"]!["sphere"]!;
+            Assert.That(logged.Count(), Is.EqualTo(forces.Count(force => force != Vector3d.Zero)).And.GreaterThan(1));
+            foreach (JProperty one in logged)
+            {
+                Vector3d force = forces[int.Parse(one.Name, CultureInfo.InvariantCulture)];
+                Assert.That(new Vector3d((double)one.Value["x"]!, (double)one.Value["y"]!, (double)one.Value["z"]!),
+                    Is.EqualTo(force));
+            }
+        }
+
+        private Simulation RunOnAFloor(double friction)
+        {
+            Simulation? simulation = null;
+            new SimulationRun(Load(("solver", "direct"), ("guidewireLength", 100.0), ("numberRodElements", 20),
+                ("guidewireOffset", 0.0), ("wireRadius", 0.0005), ("gravity", new JArray(0.0, -9.81, 0.0)),
+                ("vessel", new JObject
+                {
+                    ["shape"] = "plane", ["point"] = new JArray(0.0, -0.52, 0.0),
+                    ["normal"] = new JArray(0.0, 1.0, 0.0), ["frictionCoefficient"] = friction,
+                }),
+                ("proximalEnd", "clamped"), ("drive", "displace"), ("insertionSpeed", 0.02), ("rotationSpeed", -3.0),
+                ("hubForceLimit", 1e-4), ("timeStep", 0.01), ("deltaThreshold", 0.0), ("logContacts", true),
+                ("maxSimulationSteps", 12)), Results, null)
+                { Progress = (run, elapsed) => simulation = run }.Execute(Existing.Replace);
+            return simulation!;
+        }
+
+        // Numbers that a property of the name has, in an object of the summary.
+        private static int CountEqual(JObject summary, object record)
+        {
+            int count = 0;
+            foreach (JProperty one in summary.Properties())
+            {
+                string name = char.ToUpperInvariant(one.Name[0]) + one.Name.Substring(1);
+                if (record.GetType().GetProperty(name)?.GetValue(record) is double number)
+                {
+                    Assert.That((double?)one.Value, double.IsNaN(number) ? Is.Null : Is.EqualTo(number), name);
+                    count++;
+                }
+            }
+            return count;
+        }
+
+        [Test]
+        public void EachCatheter_HasItsOwnNumbers_AndArraysOfStepsAreWhole()
+        {
+            static JObject Catheter(double start, double outer, double inner, double speed) => new JObject
+            {
+                ["start"] = start, ["length"] = 60.0 - start, ["elements"] = 6, ["wireRadius"] = outer,
+                ["lumenRadius"] = inner, ["insertionSpeed"] = speed,
+            };
+            Simulation? simulation = null;
+            new SimulationRun(Load(("solver", "direct"), ("guidewireLength", 80.0), ("numberRodElements", 16),
+                ("guidewireOffset", 0.0), ("wireRadius", 0.0003), ("proximalEnd", "clamped"), ("drive", "displace"),
+                ("catheters", new JArray(Catheter(20.0, 0.0014, 0.001, 0.01), Catheter(10.0, 0.0008, 0.0005, 0.02))),
+                ("insertionSpeed", 0.03), ("timeStep", 0.01), ("deltaThreshold", 0.0), ("logFormat", "npz"),
+                ("massDamping", 20.0), ("maxSimulationSteps", 2)), Results, null)
+                { Progress = (run, elapsed) => simulation = run }.Execute(Existing.Replace);
+            for (int k = 0; k < 2; k++)
+            {
+                CoaxialRecord record = simulation!.Catheters()[k];
+                Assert.That(record.Insertion, Is.EqualTo((k + 1) * 0.01 * 0.02).Within(1e-12));
+                Assert.That(CountEqual((JObject)Read("summary.json")["catheters"]![k]!, record), Is.GreaterThan(3));
+            }
+            using ZipArchive log = ZipFile.OpenRead(Path.Combine(Results, "positions.npz"));
+            using Stream entry = log.GetEntry("step.npy")!.Open();
+            using var steps = new MemoryStream();
+            entry.CopyTo(steps);
+            Assert.That(steps.ToArray().Skip((int)steps.Length - 3 * sizeof(long)),
+                Is.EqualTo(new[] { 0L, 1L, 2L }.SelectMany(System.BitConverter.GetBytes)));
         }
 
         [Test]

@@ -108,6 +108,36 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
+        public void LongerCatheter_HasItsTipWhereTheOthersWas_AndIsThereAfterAReset()
+        {
+            File.WriteAllText(_file, ("{'solver': 'direct', 'guidewireLength': 120, 'numberRodElements': 30,"
+                + " 'vessel': {'shape': 'tube', 'knots': [[0, 0, -10], [0, 0, 200]], 'radius': 4},"
+                + " 'sheath': {'exit': [0, 0, 0]}, 'guidewireOffset': -100, 'wireRadius': 0.0003, 'massDamping': 20,"
+                + " 'proximalEnd': 'clamped', 'drive': 'displace', 'timeStep': 0.02, 'deltaThreshold': 0,"
+                + " 'catheters': [{'start': 20, 'length': 84, 'elements': 28, 'wireRadius': 0.0008,"
+                + " 'lumenRadius': 0.0005}]}").Replace('\'', '"'));
+            using SimulationSession session = Open("", true);
+            session.Step(new[] { 0.2, 0.0, -0.5, 0.01 });
+            session.Step(new[] { 0.2, 0.0 });
+            CoaxialRecord before = session.Simulation.Coaxial()!;
+            Assert.That((before.Insertion, before.Turn), Is.EqualTo((-5e-4, 0.01)), "a hub that is left out rests");
+            for (int k = 0; k < 15; k++)
+            {
+                session.Step(-0.5, 0.0, 1);
+            }
+            before = session.Simulation.Coaxial()!;
+            Vector3d tip = before.Positions[before.Positions.Length - 1];
+            session.Exchange(1, new[] { "catheters[0].length=90", "catheters[0].elements=45" });
+            Assert.That(session.Parameters.Scene.Catheters[0].Start, Is.EqualTo(14.0));
+            CoaxialRecord after = session.Simulation.Coaxial()!;
+            Assert.That(Vector3d.Distance(after.Positions[after.Positions.Length - 1], tip), Is.LessThan(1e-6));
+            session.Reset();
+            Vector3d[] start = session.Simulation.Coaxial()!.Positions;
+            Assert.That(start, Has.Length.EqualTo(46));
+            Assert.That(Vector3d.Distance(start[45], start[44]), Is.EqualTo(2.0).Within(1e-6));
+        }
+
+        [Test]
         public void Set_ThatIsRefused_ChangesNothing()
         {
             using SimulationSession session = Open("", false);

@@ -84,6 +84,21 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
+        public void WireThatMoves_StartsWithTheVelocitiesOfTheFile()
+        {
+            JObject start = Straight(Quaterniond.Identity);
+            start["velocities"] = new JArray(Enumerable.Range(0, N + 1).Select(i => new JArray(0.1 * i, 0.0, 1.0)));
+            start["angularVelocities"] = new JArray(Enumerable.Range(0, N).Select(i => new JArray(0.0, 0.2, 3.0 * i)));
+            RodState state = Simulation.Create(Load(start, "\"solver\": \"direct\", \"proximalEnd\": \"free\"")
+                .Values.Simulation).State;
+            for (int i = 0; i < N; i++)
+            {
+                Assert.That(state.Velocities[i], Is.EqualTo(new Vector3d(0.1 * i, 0.0, 1.0)));
+                Assert.That(state.AngularVelocities[i], Is.EqualTo(new Vector3d(0.0, 0.2, 3.0 * i)));
+            }
+        }
+
+        [Test]
         public void FramesOfTheFile_HoldTheClampsInPlaceOfTheElements([Values("proximal", "distal")] string end)
         {
             const double Angle = 0.1;
