@@ -25,7 +25,7 @@ QUANTITIES: Mapping[str, tuple[str, str]] = {
     "extremes.elementForce": ("largest force of walls on an element", "N"),
     "extremes.wallPressure": ("largest pressure of a wall", "Pa"),
     "extremes.wallDisplacement": ("largest displacement of a wall", "m"),
-    "extremes.wallWork": ("work of walls that follow with a delay", "J"),
+    "extremes.wallWork": ("work of walls that move or follow with a delay", "J"),
     "extremes.frictionWork": ("work of friction", "J"), "extremes.frictionPower": ("largest power of friction", "W"),
     "largestContactForce": ("largest contact force", "N"), "largestWallForce": ("largest force of all walls", "N"),
     "maxPenetration": ("largest penetration", "units"), "driveShortfall": ("shortfall of the drive", "units"),

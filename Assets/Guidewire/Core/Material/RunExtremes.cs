@@ -108,8 +108,8 @@ namespace Guidewire.Core
         /// </summary>
         public double WallDisplacement { get; private set; } = double.NaN;
 
-        /// <summary>Work of walls that follow with a delay, J, minus the heat of their dashpots in all steps; NaN where
-        /// none does.</summary>
+        /// <summary>Work on the wire of walls that move, J, minus the heat of walls that follow with a delay, in all
+        /// steps; NaN where there is neither.</summary>
         public double WallWork { get; internal set; } = double.NaN;
 
         /// <summary>The largest over its wall's limit.</summary>
