@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from analysis.tests.chain import write_log
 from guidewire.advice import chart, plan, quantity, report
 from guidewire.advice.plan import Advice, Tried, AdviceRequest
 from guidewire.advice.quantity import Quantity
@@ -17,7 +18,7 @@ from guidewire.commands.arguments import error_part
 from guidewire.commands.commands import parse
 from guidewire.logs.hub import read_hub, snap_turns
 from guidewire.logs.logs import LogError, read_log
-from guidewire.logs.runs import read_runs
+from guidewire.logs.runs import Run, read_runs
 from guidewire.sweeps.check import replay
 from guidewire.sweeps.sweep import Means, sweep
 
@@ -56,6 +57,16 @@ def test_the_hubs_force_has_an_error_of_its_own(advise) -> None:
     assert advice.scene.error == pytest.approx(error, rel=1e-9)
     places, _ = advise(AdviceRequest(0.5))
     assert abs(places.scene.error / error - 1.0) > 0.5
+
+
+def test_errors_of_places_are_parts_of_a_displacement_and_a_run_that_ended_stays(tmp_path) -> None:
+    write_log(tmp_path, [[(100.0, 0.0, 10.0 * i + 2.0 * k) for i in range(3)] for k in range(3)], 0.5)
+    tip = Quantity("tip")
+    values = tip.read(Run(tmp_path, {}, {}), np.array([0.0, 0.5, 1.0, 2.0]))
+    assert values == pytest.approx(np.array([[100.0, 0.0, 20.0 + z] for z in (0.0, 2.0, 4.0, 4.0)]))
+    assert tip.scale(values) == pytest.approx(math.sqrt((0.0 + 4.0 + 16.0 + 16.0) / 12.0))
+    assert Quantity("hubForce").scale(values[:, 2:]) == pytest.approx(
+        math.sqrt(np.mean(values[:, 2] ** 2)))
 
 
 def test_at_the_end_the_last_moment_counts(advise) -> None:

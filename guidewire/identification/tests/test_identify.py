@@ -15,9 +15,10 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from guidewire import LogError, PreparationError, Session, identify
-from guidewire.identification.residuals import aligned, project
+from guidewire.identification.critical import find_critical
+from guidewire.identification.residuals import Residuals, aligned, project
 from guidewire.identification.trials import Trials
-from guidewire.identification.unknowns import placed
+from guidewire.identification.unknowns import overrides, placed, unknowns_of
 from guidewire.logs.curves import offsets, smooth
 from guidewire.logs.hub import read_hub
 from guidewire.logs.logs import read_log
@@ -128,6 +129,34 @@ def test_alignment_is_the_best_rigid_one():
     turn = Rotation.from_rotvec([0.2, 0.1, -2.0])
     (back,), freedom = aligned([turn.apply(points) + [3.0, 4.0, 5.0]], [line])
     assert freedom == 6 and np.max(np.linalg.norm(offsets(back, line)[0], axis=1)) < 1e-6
+
+
+def test_sought_frames_turn_about_the_worlds_axes_and_ends_about_their_own():
+    base = Rotation.from_rotvec([0.5 * np.pi, 0.0, 0.0])
+    scene = {"start": {"proximalFrame": base.as_quat().tolist(), "distalFrame": base.as_quat().tolist()},
+             "distalRotation": 0.3, "guidewireLength": 1.0}
+    unknowns = unknowns_of(["start.proximalFrame.z"], scene, {}, {})
+    made = Rotation.from_quat(overrides(unknowns, [0.2], scene)["start.proximalFrame"])
+    assert made.apply([0.0, 0.0, 1.0]) == pytest.approx(Rotation.from_rotvec([0, 0, 0.2]).apply([0.0, -1.0, 0.0]))
+
+    class Asked(Exception):
+        pass
+
+    class NoTrials:
+        def run(self, many):
+            raise Asked(many[0])
+
+    with pytest.raises(Asked) as asked:
+        find_critical(NoTrials(), {}, scene, "distalRotation", 1.0)
+    end = Rotation.from_quat(asked.value.args[0]["start"]["distalFrame"])
+    assert end.apply([0.0, 0.0, 1.0]) == pytest.approx([0.0, -1.0, 0.0])
+    assert (base.inv() * end).as_rotvec() == pytest.approx([0.0, 0.0, 0.3])
+
+
+def test_neighbours_are_those_of_one_shape():
+    """Two shapes of three points, each off to one side: the product across the shapes does not count."""
+    offsets = np.array([[1.0], [1.0], [2.0], [-1.0], [-1.0], [-1.0]])
+    assert Residuals(offsets, (0, 3), 6).correlation == pytest.approx((1.0 + 2.0 + 1.0 + 1.0) / 9.0)
 
 
 def test_two_pictures_by_their_matrices_are_a_shape(run_of, tmp_path):

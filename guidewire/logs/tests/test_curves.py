@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from guidewire.logs.curves import offsets, smooth
+from guidewire.logs.curves import by_arc, offsets, smooth
 
 
 def test_offsets_are_those_of_the_circle_and_do_not_jump_between_pieces():
@@ -22,6 +22,11 @@ def test_points_beyond_the_ends_are_measured_from_the_ends():
     line = np.array([[0.0, 0.0], [1.0, 0.0]])
     found, along = offsets(np.array([[-3.0, 4.0], [0.25, 2.0], [2.0, 0.0]]), line)
     assert np.allclose(found, [[-3.0, 4.0], [0.0, 2.0], [1.0, 0.0]]) and np.allclose(along, [0.0, 0.25, 1.0])
+
+
+def test_fractions_of_a_chain_are_of_its_length():
+    line = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 3.0]])
+    assert np.allclose(by_arc(line, np.array([0.125, 0.25, 0.5, 1.0])), [[0.5, 0.0], [1.0, 0.0], [1.0, 1.0], [1.0, 3.0]])
 
 
 def test_points_that_coincide_are_one():

@@ -13,10 +13,10 @@ from guidewire.logs.logs import LogError
 ENTRIES = 5
 
 
-def _write(folder, with_hub=True, force=0.5):
+def _write(folder, with_hub=True, force=0.5, entries=ENTRIES):
     hubs = [{"hub": {"insertion": 1e-3 * k, "turn": 0.2 * k, "force": force, "torque": -1e-3 * k, "twist": -0.1 * k,
-                     "tipDirection": {"x": 0.0, "y": 0.6, "z": 0.8}, "largestCurvature": 20.0}} for k in range(ENTRIES)]
-    write_log(folder, [[(0.0, 1.0 * i, 2.0 * k) for i in range(11)] for k in range(ENTRIES)], 0.1,
+                     "tipDirection": {"x": 0.0, "y": 0.6, "z": 0.8}, "largestCurvature": 20.0}} for k in range(entries)]
+    write_log(folder, [[(0.0, 1.0 * i, 2.0 * k) for i in range(11)] for k in range(entries)], 0.1,
               hubs if with_hub else ())
 
 
@@ -60,8 +60,9 @@ def test_the_runs_of_a_study_are_one_band(tmp_path):
     (tmp_path / "runs.csv").write_text("")
     with pytest.raises(LogError, match="--logs"):
         read_hub_curve(tmp_path)
-    for folder, force in (("a", 0.5), ("b", 0.7)):
+    for folder, force, entries in (("a", 0.5, ENTRIES), ("b", 0.7, ENTRIES), ("c", 0.9, 3)):
         (tmp_path / folder).mkdir()
-        _write(tmp_path / folder, force=force)
+        _write(tmp_path / folder, force=force, entries=entries)
         (tmp_path / folder / "summary.json").write_text("{}")
-    assert read_hub_curve(tmp_path).band("force")[:, 0] == pytest.approx([0.5, 0.7])
+    band = read_hub_curve(tmp_path).band("force")
+    assert band[:, 2] == pytest.approx([0.5, 0.9]) and band[:, 3] == pytest.approx([0.5, 0.7]), "the third has ended"

@@ -46,16 +46,18 @@ def test_force_is_compared_at_the_measured_times_with_known_errors(tmp_path):
     assert "3 values within the run, 1 more outside" in said
     figure = draw_comparison(found)
     assert [line.get_xdata().size for line in figure.axes[0].lines] == [3, 3]
+    pulled = ComparedForce(np.arange(2.0), np.array([-2.0, -4.0]), np.array([-2.0, -3.0]), 0)
+    assert "RMS error 0.707 N (17.7 % of the measured peak)" in pulled.summary()
 
 
 def test_shape_is_compared_by_the_distance_of_its_points_from_the_wire(tmp_path):
-    # At 0.25 s the wire lies at y = 1: one point on it, one 3 beside, one 4 beyond its tip; at 1.5 s at y = 6.
-    file = _csv(tmp_path, "time,x,y,z\n0.25,0,1,7\n0.25,3,1,15\n0.25,0,1,44\n1.5,0,5,20\n")
+    # At 0.2 s the wire lies at y = 0.8: one point on it, one 3 beside, one 4 beyond its tip; at 1.5 s at y = 6.
+    file = _csv(tmp_path, "time,x,y,z\n0.2,0,0.8,7\n0.2,3,0.8,15\n0.2,0,0.8,44\n1.5,0,5,20\n")
     found = compare(_run(tmp_path), file)
     assert isinstance(found, ComparedShapes) and found.left_out == 0
     np.testing.assert_allclose(found.distances[0], [0.0, 3.0, 4.0], atol=1e-12)
     np.testing.assert_allclose(found.distances[1], [1.0], atol=1e-12)
-    assert "RMS distance 2.55 units, largest 4 units at t = 0.25 s; 4 points, 2 shapes" in found.summary()
+    assert "RMS distance 2.55 units, largest 4 units at t = 0.2 s; 4 points, 2 shapes" in found.summary()
     figure = draw_comparison(found)
     assert [line.get_xdata().size for line in figure.axes[0].lines] == [NODES, 3, NODES, 1]
     assert figure.axes[2].lines[0].get_ydata() == pytest.approx([4.0, 1.0])
@@ -115,6 +117,8 @@ def test_every_form_that_is_named_is_taken(tmp_path):
         row = ",".join("A" if name == "view" else str(k) for k, name in enumerate(columns))
         file = _csv(tmp_path, f"{','.join(columns)}\n{row}\n")
         assert read_measurement(file, 1.0).count == 1, form
+    for column, metres in (("insertion", 2e-3), ("insertion_cm", 2e-2), ("insertion_m", 2.0)):
+        assert read_measurement(_csv(tmp_path, f"{column},force\n2,1\n"), 1e-3).over[0] == pytest.approx(metres)
     with pytest.raises(LogError) as error:
         read_measurement(_csv(tmp_path, "time,way\n0,1\n"), 1.0)
     assert all(form in str(error.value) for form in ("turn,force", "insertion,torque", "y,z", "time,x,z", "view,u,v"))

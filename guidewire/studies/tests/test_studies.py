@@ -90,6 +90,8 @@ def test_each_variant_takes_every_value_and_a_duration_sets_the_steps():
         ("few,timeStep=0.1", {"displacement": 1, "timeStep": 0.1, "maxSimulationSteps": 9}),
         ("few,timeStep=0.3", {"displacement": 1, "timeStep": 0.3, "maxSimulationSteps": 5}),
     ]
+    # 0.07/0.01 is above 7 by rounding.
+    assert Grid(common={"timeStep": 0.01}, duration=0.07).cases()[0].overrides["maxSimulationSteps"] == 7
 
 
 def test_variants_without_an_axis_are_runs_of_their_own_name_and_neither_is_one_run():
