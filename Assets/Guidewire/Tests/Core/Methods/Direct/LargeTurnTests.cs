@@ -74,6 +74,31 @@ namespace Guidewire.Core.Tests
             Row.Holds(what + "momentum, m w L/2", wire.Momentum.Length / (wire.Mass * velocities[0].Length), 0.0, 1e-9);
         }
 
+        [TestCase(Integrator.ImplicitEuler)]
+        [TestCase(Integrator.Trbdf2)]
+        [TestCase(Integrator.Esdirk3)]
+        [TestCase(Integrator.Esdirk4)]
+        public void WireThatSpinsByMoreThanHalfATurnInAStep_GoesOn(Integrator scheme)
+        {
+            // Free, about its own axis, by 4.4 rad a step.
+            const int N = 5;
+            const double Rate = 4400.0;
+            MaterialRod rod = Rods.Wire(N);
+            RodShape shape = Rods.Straight(rod);
+            RodDynamics motion = MotionTests.Start(rod, new RodSupports { Proximal = ProximalEnd.Free },
+                Rods.Schedule(), shape, scheme, 1e-6);
+            var spins = new Vector3d[N];
+            Array.Fill(spins, new Vector3d(0.0, 0.0, Rate));
+            motion.Begin(new Vector3d[N + 1], spins, false);
+            Rods.Step(motion, 1e-3, 10);
+            Assert.That(motion.Clock.Halvings, Is.Zero);
+            for (int j = 0; j < N; j++)
+            {
+                Assert.That(motion.Spins[j].Z, Is.EqualTo(Rate).Within(1e-6 * Rate));
+                Assert.That(Math.Abs(shape.Q[j].W), Is.EqualTo(Math.Abs(Math.Cos(0.5 * 44.0))).Within(1e-6));
+            }
+        }
+
         [TestCase(Integrator.Bdf2, 2.0, 400)]
         [TestCase(Integrator.Trbdf2, 2.0, 200)]
         [TestCase(Integrator.Esdirk3, 3.0, 200)]
