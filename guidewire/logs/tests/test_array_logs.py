@@ -117,6 +117,10 @@ def test_what_a_killed_run_leaves_is_read_up_to_its_last_whole_step(runner_comma
     assert not log.complete and "last whole step" in log.warning and "\n" not in log.warning
     np.testing.assert_array_equal(log.steps, np.arange(len(log.steps)))
     row = 8 * (5 + 2 * 3 * 31)  # bytes of an entry of 31 spheres
+    with open(partial, "rb") as file:
+        np.lib.format.read_magic(file)
+        np.lib.format.read_array_header_1_0(file)
+        assert len(log.steps) == (partial.stat().st_size - file.tell()) // row
     os.truncate(partial, partial.stat().st_size - row)
     assert read_log(out).final_step == log.final_step - 1
     os.truncate(partial, 60)

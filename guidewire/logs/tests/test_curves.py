@@ -26,7 +26,8 @@ def test_points_beyond_the_ends_are_measured_from_the_ends():
 
 def test_fractions_of_a_chain_are_of_its_length():
     line = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 3.0]])
-    assert np.allclose(by_arc(line, np.array([0.125, 0.25, 0.5, 1.0])), [[0.5, 0.0], [1.0, 0.0], [1.0, 1.0], [1.0, 3.0]])
+    found = by_arc(line, np.array([0.125, 0.25, 0.5, 1.0]))
+    assert np.allclose(found, [[0.5, 0.0], [1.0, 0.0], [1.0, 1.0], [1.0, 3.0]])
 
 
 def test_points_that_coincide_are_one():

@@ -198,15 +198,21 @@ namespace Guidewire.Core
                 isFree = !_swept.Find(_safe, p);
                 if (!isFree)
                 {
+                    Array.Copy(p, _unshortened, p.Length);
                     TakeSmallerSteps(p);
+                    AddImpulses(state, p);
                 }
             }
-            if (isFree)
+            if (!isFree)
             {
-                return;
+                Array.Copy(p, _unshortened, p.Length);
+                _shortened.Shorten(_safe, p);
+                AddImpulses(state, p);
             }
-            Array.Copy(p, _unshortened, p.Length);
-            _shortened.Shorten(_safe, p);
+        }
+
+        private void AddImpulses(RodState state, Vector3d[] p)
+        {
             for (int i = 0; i < p.Length; i++)
             {
                 if (state.InverseMasses[i] > 0.0)

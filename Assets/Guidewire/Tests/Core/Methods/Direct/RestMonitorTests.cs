@@ -22,6 +22,27 @@ namespace Guidewire.Core.Tests
             Assert.That(run.Reason, isReliable ? Does.Not.Contain("unstable") : Does.Contain("unstable"));
         }
 
+        [TestCase(false)]
+        [TestCase(true)]
+        public void WireThatATurningLoadWillMove_IsNotAtRest(bool isForce)
+        {
+            SimulationParameters parameters = Rods.Clamped(10, Solver.Direct, 0.01, 60);
+            parameters.Method.DeltaThreshold = Threshold;
+            var late = new TimeTable(new[] { 0.0, 0.5, 0.51 }, new[] { 0.0, 0.0, 1.0 });
+            if (isForce)
+            {
+                parameters.Scene.TipFollowerForce = new Vector3d(0.0, 0.01, 0.0);
+                parameters.Scene.TipFollowerForceTable = late;
+            }
+            else
+            {
+                parameters.Scene.TipMoment = new Vector3d(0.001, 0.0, 0.0);
+                parameters.Scene.TipMomentTable = late;
+            }
+            Simulation run = Wires.Run(parameters);
+            Assert.That(run.StepCount, Is.GreaterThan(50), run.Reason);
+        }
+
         // Far from any equilibrium: a thin wire that whips in a plane, and one that falls freely.
         [TestCase(false)]
         [TestCase(true)]

@@ -38,6 +38,43 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
+        public void Jam_EndsWithThePartThatPasses_AndHalvesFollowIt([Values(0, 1, 7)] int jammed)
+        {
+            // Nine solves of the first part and its halves, one of each jammed part and of the one that passes; the
+            // others are halves, each of one.
+            const double Parts = 20.0;
+            RodState state = Wire();
+            var thrown = new ThrowingSolver(new Vector3d(0.0, -50.0, 0.0)) { Until = 9 + jammed };
+            ContactSolver solver = Between(state, thrown, out ContactRecord _);
+            Predict(state, Parts * Radius);
+            solver.Solve(state);
+            Assert.That(thrown.Solves, Is.EqualTo(9.0 + jammed + 1.0 + 2.0 * (Parts - 2.0 - jammed)));
+        }
+
+        [Test]
+        public void Impulses_AreWhatWallsTakeOfTheMotion_InAWedgeToo([Values(0.0, 1.2)] double slope)
+        {
+            // The step is one part, of which two halves count, each after three solves.
+            var walls = new ContactShape[]
+            {
+                new PlaneShape(Vector3d.Zero, Vector3d.Normalize(new Vector3d(slope, 1.0, 0.0))),
+                new PlaneShape(Vector3d.Zero, Vector3d.Normalize(new Vector3d(-slope, 1.0, 0.0))),
+            };
+            RodState state = Wire();
+            var by = new Vector3d(3.0, -50.0, 0.0);
+            ContactSolver solver = Between(state, new ThrowingSolver(by), out ContactRecord record, walls);
+            Predict(state, 0.5);
+            solver.Solve(state);
+            for (int i = 1; i <= Elements; i++)
+            {
+                Vector3d free = state.Positions[i] + 0.5 * Vector3d.UnitZ + 6.0 * by;
+                Vector3d taken = state.PredictedPositions[i] - free;
+                Assert.That(Vector3d.Distance(state.InverseMasses[i] * record.Impulses[i], taken),
+                    Is.LessThan(1e-6 * taken.Length), "sphere " + i);
+            }
+        }
+
+        [Test]
         public void Drive_OfMorePartsThanFiveHundred_GoesAllTheWay()
         {
             double gone = Driven(1500.0, out ContactRecord record);
@@ -160,9 +197,10 @@ namespace Guidewire.Core.Tests
             return state;
         }
 
-        private static ContactSolver Between(RodState state, IConstraintSolver solver, out ContactRecord record)
+        private static ContactSolver Between(RodState state, IConstraintSolver solver, out ContactRecord record,
+            ContactShape[]? walls = null)
         {
-            var walls = new ContactShape[] { new PlaneShape(Vector3d.Zero, Vector3d.UnitY) };
+            walls ??= new ContactShape[] { new PlaneShape(Vector3d.Zero, Vector3d.UnitY) };
             var search = new ContactSearch(walls, Elements, Length / Elements, Radius, Radius, true);
             var response = new ContactResponse(state, walls, Radius, Radius, 0.1, iterations: 1);
             record = new ContactRecord(state.SphereCount);
@@ -191,10 +229,12 @@ namespace Guidewire.Core.Tests
 
             public int Solves { get; set; }
 
+            public int Until { get; set; } = int.MaxValue;
+
             public void Solve(RodState state)
             {
                 Solves++;
-                for (int i = 1; i < state.SphereCount; i++)
+                for (int i = 1; i < state.SphereCount && Solves <= Until; i++)
                 {
                     state.PredictedPositions[i] += _by;
                 }
