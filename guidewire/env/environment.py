@@ -361,7 +361,7 @@ class Environment(Env):
         if self.render_mode is None:
             return None
         if self._scenery is None or self._scenery[0] is not self._route:
-            self._scenery = self._route, Scenery(self.session, self.target_position)
+            self._scenery = self._route, Scenery(self.session, self._route)
         picture = self._scenery[1].picture(self.session_state)
         if self.render_mode == "rgb_array":
             return picture
@@ -424,6 +424,8 @@ class Environment(Env):
         """Bring the instruments to their start, or to what a session saved, and return whether the scene was open."""
         loaded = self._scene.load(draw)
         try:
+            if loaded:
+                self._scene.session.reset()    # a state that is restored leaves contrast agent where it is
             if bits is None:
                 self._scene.start(draw.tip_turn, draw.insertion)
             else:

@@ -6,25 +6,26 @@ from typing import Any
 
 import numpy as np
 
+from guidewire.env.route import Route
 from guidewire.sessions.session import Session, State
 
 SIDE = 360  # pixels of each of the two pictures
 _COLOURS = ((255, 214, 64), (96, 200, 255), (150, 255, 140))  # the wire, and each catheter
 _VESSEL, _TARGET, _BACKGROUND = (120, 70, 74), (255, 80, 80), 18
 _TILT = np.radians(25.0)  # of the view from above
-_POINTS = 60_000  # of the wall, at most
+_POINTS, _MOVING = 60_000, 4_000  # of a wall, at most; of one that moves and is painted anew
 
 
 class Scenery:
-    """The still parts of a scene's picture.
+    """A scene's picture, whose still parts are painted once.
 
     Parameters
     ----------
     session : whose walls.
-    target : (3,), units.
+    route : to the target, in a vessel that moves as it says.
     """
 
-    def __init__(self, session: Session, target: np.ndarray) -> None:
+    def __init__(self, session: Session, route: Route) -> None:
         corners = [wall.vertices for wall in session.walls()]
         points = np.concatenate(corners) if corners else session.state.positions
         low, high = points.min(axis=0), points.max(axis=0)
@@ -32,18 +33,13 @@ class Scenery:
         cosine, sine = np.cos(_TILT), np.sin(_TILT)
         # To the right, upwards and towards the eye; wires enter along +z.
         self._axes = np.array([[0.0, 1.0, 0.0], [-sine, 0.0, cosine], [cosine, 0.0, sine]])
-        self._still = np.full((SIDE, SIDE, 3), _BACKGROUND, dtype=np.uint8)
-        every = max(1, len(points) // _POINTS)
-        seen = (points[::every] - self._middle) @ self._axes.T
-        far = np.argsort(seen[:, 2])    # what is nearer is painted over it
-        depth = seen[far, 2]
-        light = 0.35 + 0.65 * (depth - depth.min()) / max(float(np.ptp(depth)), 1e-9)
-        self._paint(self._still, seen[far], np.asarray(_VESSEL) * light[:, None], 0)
-        self._paint(self._still, (target[None] - self._middle) @ self._axes.T, np.asarray(_TARGET)[None], 3)
+        self._route, most = route, _POINTS if route.motion is None else _MOVING
+        self._wall = points[::max(1, len(points) // most)]
+        self._still = self._painted() if route.motion is None else None
 
     def picture(self, state: State) -> np.ndarray:
         """(SIDE, 2 SIDE, 3) of uint8: the X-ray picture with the vessel as a road map, and the view beside it."""
-        beside = self._still.copy()
+        beside = self._painted() if self._still is None else self._still.copy()
         catheters = [one.positions for one in state.catheters]
         for k, positions in [*enumerate(catheters, 1), (0, state.positions)]:
             along = np.linspace(0.0, len(positions) - 1.0, 8 * len(positions))
@@ -52,6 +48,18 @@ class Scenery:
                         np.broadcast_to(_COLOURS[k % len(_COLOURS)], fine.shape), 1 if k == 0 else 2)
         grey = state.picture(pixels=SIDE, vessel="roadmap")
         return np.concatenate([np.repeat(grey[:, :, None], 3, axis=2), beside], axis=1)
+
+    def _painted(self) -> np.ndarray:
+        """The wall and the target where they are now."""
+        picture = np.full((SIDE, SIDE, 3), _BACKGROUND, dtype=np.uint8)
+        motion, target = self._route.motion, self._route.target_position
+        seen = ((self._wall if motion is None else motion.moved(self._wall)) - self._middle) @ self._axes.T
+        far = np.argsort(seen[:, 2])    # what is nearer is painted over it
+        depth = seen[far, 2]
+        light = 0.35 + 0.65 * (depth - depth.min()) / max(float(np.ptp(depth)), 1e-9)
+        self._paint(picture, seen[far], np.asarray(_VESSEL) * light[:, None], int(motion is not None))
+        self._paint(picture, (target[None] - self._middle) @ self._axes.T, np.asarray(_TARGET)[None], 3)
+        return picture
 
     def _paint(self, picture: np.ndarray, seen: np.ndarray, colours: np.ndarray, around: int) -> None:
         columns = np.rint(0.5 * SIDE + self._scale * seen[:, 0]).astype(int)

@@ -192,6 +192,12 @@ def test_options_may_be_dicts_of_plain_values_as_files_have_them(tube):
         with pytest.raises(Error, match="no-such-wire"):
             own.reset(options={"instrument": "no-such-wire"})
         own.reset(seed=1)    # and the next episode begins
+        for _ in range(2):    # at a start that is kept
+            own.session.inject(1.0, 5.0)
+            own.step([0.0, 0.0])
+            assert own.session.agent().injected > 0.0
+            own.reset(options=own.recorded().options)
+            assert own.session.agent().injected == 0.0, "nothing is left of the last episode's contrast agent"
 
 
 def test_pictures_show_where_the_target_is_and_what_each_pixel_is(tube):

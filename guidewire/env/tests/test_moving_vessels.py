@@ -20,9 +20,10 @@ def test_distances_and_the_beat_are_those_of_the_moved_vessel():
     task = replace(find_task("coronary"), targets=(4,))
     seen = Observation(parts=("tip", "distance", "target", "beat"))
     moved = []
-    with Environment(task, observation=seen, drive={"step_time": 0.07}) as own:
+    with Environment(task, observation=seen, drive={"step_time": 0.07}, render_mode="rgb_array") as own:
         own.reset(options={"nominal": True, "insertion": [0.04, 0.02], **PACE})
-        rest = own.target_position.copy()
+        rest, first = own.target_position.copy(), own.render()[:, 360:]
+        corners = own.session.walls()[0].vertices
         for k in range(14):
             observation = own.step([1.0, 0.0, 1.0, 0.0])[0]
             state = own.session_state
@@ -32,6 +33,13 @@ def test_distances_and_the_beat_are_those_of_the_moved_vessel():
             np.testing.assert_allclose(observation["beat"], [np.cos(angle), np.sin(angle)], atol=1e-6)
             np.testing.assert_allclose(observation["tip"][0] + observation["target"], own.target_position, atol=1e-4)
             moved.append(np.linalg.norm(own.target_position - rest))
+        pictures = [first, own.render()[:, 360:]]
+        where = [np.argwhere((one == (255, 80, 80)).all(axis=2)).mean(axis=0) for one in pictures]
+        x, y, z = own.target_position - rest
+        up, pixel = np.cos(np.radians(25.0)) * z - np.sin(np.radians(25.0)) * x, np.linalg.norm(np.ptp(corners, axis=0))
+        np.testing.assert_allclose(where[1] - where[0], 0.92 * 360.0 / pixel * np.array([-up, y]), atol=1.5)
+        walls = [(one[..., 0].astype(int) - one[..., 1] > 15) & (one[..., 0] < 130) for one in pictures]
+        assert (walls[0] ^ walls[1]).sum() > 0.2 * walls[0].sum()
     assert max(moved) > 5.0
 
 
