@@ -41,37 +41,38 @@ def run(arguments: argparse.Namespace, build_runner: Callable[[], list[str]], te
         if arguments.submitted:
             print(benchmark.table([benchmark.load(file) for file in arguments.submitted]))
             return 0
+        policy = arguments.policy or "retry"
         if arguments.benchmark:
-            return _benchmark(arguments, arguments.policy or "retry", tell)
+            return _score(arguments, policy, tell)
         if arguments.task is None:
             for name, task in all_tasks(None).items():
                 print(f"{name}: {task.summary} ({len(task.targets)} targets, {task.time:g} s, {task.tier})")
             return 0
         if arguments.replay is not None:
             return _replay(arguments.task, arguments.replay, arguments.export)
-        if arguments.record is not None and arguments.policy is None:
+        if arguments.record is None:
+            return _score(arguments, policy, tell)
+        if arguments.policy is None:
             return _steer(arguments.task, arguments.record, arguments.seed, arguments.open, build_runner)
-        arguments.policy = arguments.policy or "retry"
-        if arguments.record is not None:
-            return _demonstrate(arguments.task, arguments.policy, arguments.record, arguments.episodes,
-                                arguments.seed or 1)
-        return _play(arguments.task, arguments.policy, arguments.episodes, arguments.seed or 1, arguments.jobs, tell)
+        return _demonstrate(arguments.task, policy, arguments.record, arguments.episodes, arguments.seed or 1)
     except (Error, SessionError) as error:
         raise PreparationError(str(error)) from error
 
 
-def _benchmark(arguments: argparse.Namespace, policy: str, tell: Tell) -> int:
-    seeds = range(benchmark.FIRST_SEED, benchmark.FIRST_SEED + arguments.episodes)
+def _score(arguments: argparse.Namespace, policy: str, tell: Tell) -> int:
+    began, first = time.monotonic(), benchmark.FIRST_SEED if arguments.benchmark else arguments.seed or 1
+    seeds = range(first, first + arguments.episodes)
     names = [arguments.task] if arguments.task else list(all_tasks(arguments.tier))
     tier = find_task(arguments.task).tier if arguments.task else arguments.tier
     played = {name: _played(name, policy, seeds, arguments.jobs, tell) for name in names}
-    results = benchmark.results_of(tier, policy, played)
+    results, every = benchmark.results_of(tier, policy, played), [one for own in played.values() for one in own]
     print(benchmark.table([results]))
-    faults = sum(len(one.faults) for episodes in played.values() for one in episodes)
-    bits = score.digest([one for episodes in played.values() for one in episodes])
-    print(f"guidewire {results['guidewire']}, tier {tier}, seeds {seeds[0]} to {seeds[-1]}, {faults} faults, bits "
-          f"{bits}")
-    if arguments.results is not None:
+    faults = [f"seed {one.seed}: {fault}" for one in every for fault in one.faults]
+    ended = [f"seed {one.seed}: {one.report['reason']}" for one in every if one.report["end"] == "simulation"]
+    print("\n".join([*faults[:20], f"{', '.join(names)}, seeds {seeds[0]} to {seeds[-1]}: {len(faults)} faults, "
+                     f"{len(ended)} ended by the simulation, bits {score.digest(every)}, guidewire "
+                     f"{results['guidewire']}, {time.monotonic() - began:.0f} s", *ended[:5]]))
+    if arguments.benchmark and arguments.results is not None:
         benchmark.save(results, arguments.results)
         print(f"written: {arguments.results}, sha256 {results['sha256'][:16]}")
     return 1 if faults else 0
@@ -121,21 +122,6 @@ def _played(task: str, policy: str, seeds: range, jobs: int, tell: Tell) -> list
     with ThreadPoolExecutor(jobs) as pool:
         list(pool.map(part, range(jobs)))
     return sorted(played, key=lambda one: one.seed)
-
-
-def _play(task: str, policy: str, episodes: int, seed: int, jobs: int, tell: Tell) -> int:
-    began = time.monotonic()
-    played = _played(task, policy, range(seed, seed + episodes), jobs, tell)
-    print(benchmark.table([benchmark.results_of("", policy, {task: played})]))
-    faults = [f"seed {one.seed}: {fault}" for one in played for fault in one.faults]
-    for line in faults[:20]:
-        print(line)
-    ended = [one for one in played if one.report["end"] == "simulation"]
-    print(f"{task}, seeds {seed} to {seed + episodes - 1}: {len(faults)} faults, {len(ended)} ended by the simulation, "
-          f"bits {score.digest(played)}, {time.monotonic() - began:.0f} s")
-    for one in ended[:5]:
-        print(f"seed {one.seed}: {one.report['reason']}")
-    return 1 if faults else 0
 
 
 def _replay(task: str, file: Path, export: Path | None) -> int:

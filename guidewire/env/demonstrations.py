@@ -7,7 +7,6 @@ A drive is what was asked of the hubs; to replay it gives all else, with the sam
 from __future__ import annotations
 
 import json
-import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -17,7 +16,7 @@ import numpy as np
 
 from guidewire.env.environment import Environment
 from guidewire.env.recorded import RecordedDrive
-from guidewire.env.registration import VERSION
+from guidewire.env.registration import spec_of
 from guidewire.env.score import Policy
 from guidewire.env.spaces import Error
 from guidewire.installed import version
@@ -127,7 +126,9 @@ def save_minari(environment: Environment, trajectories: Sequence[Trajectory], fo
         "total_episodes": len(trajectories), "total_steps": sum(len(one.rewards) for one in trajectories),
         "data_format": "hdf5", "dataset_id": name, "dataset_size": round(size, 1),
         "observation_space": json.dumps(_space(environment.observation_space)),
-        "action_space": json.dumps(_space(environment.action_space)), "env_spec": json.dumps(_spec(environment)),
+        "action_space": json.dumps(_space(environment.action_space)), "env_spec": json.dumps({
+            **spec_of(environment.task), "nondeterministic": False, "order_enforce": True,
+            "disable_env_checker": False, "additional_wrappers": []}),
         "algorithm_name": ", ".join(dict.fromkeys(one.source for one in trajectories)), "code_permalink": "",
         "author": "", "author_email": "", "requirements": [f"guidewire=={version()}"], "minari_version": ">=0.5.0"}))
 
@@ -139,13 +140,3 @@ def _space(space: Any) -> dict[str, Any]:
         return {"type": "Discrete", "dtype": "int64", "start": int(space.start), "n": int(space.n)}
     return {"type": "Box", "dtype": str(space.dtype), "shape": list(space.shape), "low": space.low.tolist(),
             "high": space.high.tolist()}
-
-
-def _spec(environment: Environment) -> dict[str, Any]:
-    """Return what gymnasium's EnvSpec.from_json reads."""
-    task = environment.task
-    return {"id": f"guidewire/{task.name}-v{VERSION}", "entry_point": "guidewire.env.environment:Environment",
-            "reward_threshold": None, "nondeterministic": False,
-            "max_episode_steps": math.ceil(task.time / environment.drive.step_time - 1e-9), "order_enforce": True,
-            "disable_env_checker": False, "kwargs": {"task": task.name}, "additional_wrappers": [],
-            "vector_entry_point": "guidewire.env.registration:make_vector"}

@@ -75,45 +75,12 @@ class Report:
     forces: list[float] = field(default_factory=list)
     parts: list[Part] = field(default_factory=lambda: [Part()])
 
-    @property
-    def largest_force(self) -> float:
-        """Return the largest force of a wall on one sphere after any time step, N."""
-        return max(part.largest_force for part in self.parts)
-
-    @property
-    def strand_force(self) -> float:
-        """Return the largest force of an instrument's own strands on one of its spheres, N."""
-        return max(part.strand_force for part in self.parts)
-
-    @property
-    def impulse(self) -> float:
-        """Return the impulse of all walls, N s."""
-        return sum(part.impulse for part in self.parts)
-
-    @property
-    def left(self) -> float:
-        """Distance of the wire's tip to the target, units."""
-        return self.parts[0].left
-
-    @property
-    def path(self) -> float:
-        """Return the way of the wire's tip, units."""
-        return self.parts[0].path
-
-    @property
-    def inserted(self) -> float:
-        """Of the wire's hub, m."""
-        return self.parts[0].inserted
-
-    @property
-    def retracted(self) -> float:
-        """Of the wire's hub, m."""
-        return self.parts[0].retracted
-
-    @property
-    def turned(self) -> float:
-        """Give how far the wire's hub turned, rad."""
-        return self.parts[0].turned
+    largest_force = property(lambda self: max(part.largest_force for part in self.parts))
+    strand_force = property(lambda self: max(part.strand_force for part in self.parts))
+    impulse = property(lambda self: sum(part.impulse for part in self.parts))
+    left, path, inserted, retracted, turned = (    # of the wire
+        property(lambda self, name=name: getattr(self.parts[0], name))
+        for name in ("left", "path", "inserted", "retracted", "turned"))
 
     @property
     def safe_success(self) -> bool:

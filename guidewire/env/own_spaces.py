@@ -30,6 +30,15 @@ class Space:
     def __contains__(self, value: Any) -> bool:
         return self.contains(value)
 
+    def _known(self) -> dict[str, Any]:
+        return {name: one for name, one in vars(self).items() if name != "_np_random"}
+
+    def __eq__(self, other: object) -> bool:
+        return type(self) is type(other) and all(map(np.array_equal, self._known().values(), other._known().values()))
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({self._known()})"
+
 
 class Box(Space):
     """Arrays between two bounds, both included."""
@@ -53,14 +62,6 @@ class Box(Space):
         return (isinstance(value, np.ndarray) and np.can_cast(value.dtype, self.dtype) and value.shape == self.shape
                 and bool(np.all(value >= self.low) and np.all(value <= self.high)))
 
-    def __eq__(self, other: object) -> bool:
-        return (isinstance(other, Box) and self.shape == other.shape and self.dtype == other.dtype
-                and np.array_equal(self.low, other.low) and np.array_equal(self.high, other.high))
-
-    def __repr__(self) -> str:
-        low, high = (np.min(self.low), np.max(self.high)) if self.low.size else ("", "")
-        return f"Box({low}, {high}, {self.shape}, {self.dtype})"
-
 
 class Discrete(Space):
     """Whole numbers from start, n of them."""
@@ -79,12 +80,6 @@ class Discrete(Space):
             isinstance(value, np.ndarray) and value.shape == () and np.issubdtype(value.dtype, np.integer))
         return whole and bool(self.start <= value < self.start + self.n)
 
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, Discrete) and (self.n, self.start) == (other.n, other.start)
-
-    def __repr__(self) -> str:
-        return f"Discrete({self.n})"
-
 
 class MultiDiscrete(Space):
     """Arrays of whole numbers from 0, each below its own of nvec."""
@@ -101,12 +96,6 @@ class MultiDiscrete(Space):
         """Say whether all are."""
         return (isinstance(value, np.ndarray) and np.issubdtype(value.dtype, np.integer) and value.shape == self.shape
                 and bool(np.all((value >= 0) & (value < self.nvec))))
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, MultiDiscrete) and np.array_equal(self.nvec, other.nvec)
-
-    def __repr__(self) -> str:
-        return f"MultiDiscrete({self.nvec})"
 
 
 class Dict(Space, Mapping):
@@ -139,12 +128,6 @@ class Dict(Space, Mapping):
 
     def __len__(self) -> int:
         return len(self.spaces)
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, Dict) and self.spaces == other.spaces
-
-    def __repr__(self) -> str:
-        return f"Dict({', '.join(f'{name!r}: {space}' for name, space in self.spaces.items())})"
 
 
 class Env:

@@ -3,27 +3,28 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 from guidewire.env.drive import Drive
 from guidewire.env.environment import Reward
-from guidewire.env.task import all_tasks
+from guidewire.env.task import Task, all_tasks
 
-VERSION = 0
+def spec_of(task: Task) -> dict[str, Any]:
+    """Return what `gymnasium.register` and a spec in JSON take of a task."""
+    return {"id": f"guidewire/{task.name}-v0", "entry_point": "guidewire.env.environment:Environment",
+            "vector_entry_point": "guidewire.env.registration:make_vector", "kwargs": {"task": task.name},
+            "max_episode_steps": math.ceil(task.time / Drive().step_time - 1e-9),
+            # Of an episode that reaches the target at the last moment.
+            "reward_threshold": 2.0 + Reward().time * task.time}
 
 
 def register() -> None:
     """Name them; may be called again."""
     from gymnasium.envs import registration
 
-    step_time, time = Drive().step_time, Reward().time
-    for name, task in all_tasks(None).items():
-        known = f"guidewire/{name}-v{VERSION}"
-        if known not in registration.registry:
-            registration.register(id=known, entry_point="guidewire.env.environment:Environment",
-                                  vector_entry_point="guidewire.env.registration:make_vector", kwargs={"task": name},
-                                  max_episode_steps=math.ceil(task.time / step_time - 1e-9),
-                                  # Of an episode that reaches the target at the last moment.
-                                  reward_threshold=2.0 + time * task.time)
+    for known in map(spec_of, all_tasks(None).values()):
+        if known["id"] not in registration.registry:
+            registration.register(**known)
 
 
 def make_vector(num_envs: int = 2, **options: object) -> object:

@@ -127,9 +127,7 @@ class Route:
         self._lengths = np.linalg.norm(steps, axis=1)
         self._steps = steps / np.maximum(self._lengths, 1e-300)[:, None]
         self.left = np.zeros(len(parents))
-        for k in chain[1:]:
-            self.left[k] = self.left[self.next[k]] + self._lengths[k]
-        for k in np.flatnonzero(~on_chain):    # parents come before their children
+        for k in (*chain[1:], *np.flatnonzero(~on_chain)):    # parents come before their children
             self.left[k] = self.left[self.next[k]] + self._lengths[k]
 
         if placement is not None and not placement.is_none:
