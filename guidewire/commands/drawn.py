@@ -4,26 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import replace
 
 import numpy as np
 
-from guidewire.anatomy.motion import GivenVessel, given_walls, motions_of
 from guidewire.figures.render import Instrument, instruments_of
-from guidewire.logs.logs import PositionLog, read_columns
+from guidewire.logs.logs import PositionLog
 from guidewire.logs.runs import PARAMETERS_NAME, Run
 from guidewire.logs.surfaces import Surface
-from guidewire.logs.walls import drawn_of, soft_walls
 from guidewire.prepare import PreparationError
 from guidewire.sessions.session import SessionError, session_of
+from guidewire.viewer import drawn_walls
 from guidewire.viewer.recording import read_recording
 
 
 @contextmanager
 def walls_of(run: Run, log: PositionLog, middle: np.ndarray, reach: float
              ) -> Iterator[tuple[list[Surface], Callable[[int], list[Surface]] | None]]:
-    """Return the walls of a run, as of `Session.walls`, and as they are drawn at an entry of the log; None where they
-    are rigid and stand still. Of a run without walls no session is asked.
+    """Return the walls of a run as `drawn_walls.walls_of` does. Of a run without walls no session is asked.
 
     Raises
     ------
@@ -34,23 +31,7 @@ def walls_of(run: Run, log: PositionLog, middle: np.ndarray, reach: float
         return
     try:
         with session_of(run.folder / PARAMETERS_NAME) as session:
-            drawn, motions = drawn_of(run, log), motions_of(run.parameters)
-            rest = session.walls(middle, reach)
-            given = given_walls(run.parameters)
-            bent = read_columns(run.folder, ["vesselCentreline"], log.steps)["vesselCentreline"] if given else []
-            vessel = GivenVessel(np.asarray(bent[0])[:, :3]) if given else None
-
-            def at(k: int) -> list[Surface]:
-                walls = session.walls(middle, reach, drawn[k]) if soft_walls(run.parameters) else list(rest)
-                for number in given:
-                    walls[number] = replace(walls[number], vertices=vessel.moved(
-                        walls[number].vertices, np.asarray(bent[k])[:, 3:]))
-                for number, motion in motions.items():
-                    motion.set_time(float(log.time[k]))
-                    walls[number] = replace(walls[number], vertices=motion.moved(walls[number].vertices))
-                return walls
-
-            yield rest, at if motions or given or soft_walls(run.parameters) else None
+            yield drawn_walls.walls_of(session, run, log, middle, reach)
     except SessionError as error:
         raise PreparationError(str(error)) from error
 

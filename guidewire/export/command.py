@@ -16,17 +16,18 @@ from guidewire.anatomy.mesh import AnatomyError
 from guidewire.anatomy.vtp import write_vtp
 from guidewire.export.curves import Curve, curves_of
 from guidewire.export.frame import Frame, frame_of
-from guidewire.export.usd import write_usd
+from guidewire.export.usd import Wall, write_usd
 from guidewire.logs.logs import LogError, extent, read_log
 from guidewire.logs.runs import PARAMETERS_NAME, read_run
 from guidewire.prepare import PreparationError
 from guidewire.runs import checking
 from guidewire.runs.whole_files import write_whole
 from guidewire.sessions.session import SessionError, session_of
+from guidewire.viewer.drawn_walls import walls_of
 from guidewire.viewer.recording import Recording, read_recording
 
 SERIES, TABLE, STAGE = "run.pvd", "run.csv", "run.usda"
-_FRAME = re.compile(r"(wire|catheter-\d+)-\d{5}\.vtp")
+_FRAME = re.compile(r"(wire|vessel|(catheter|obstacle)-\d+)-\d{5}\.vtp")
 _HIDDEN = {"inBody", "time", "step", "stepTime", "realTime", "tipx", "tipy", "tipz", "lumen"}  # of the table
 
 
@@ -39,7 +40,7 @@ def run(arguments: argparse.Namespace) -> int:
     """
     folder = arguments.out or arguments.folder / "export"
     try:
-        recording, described = _read(arguments.folder, arguments.frames)
+        recording, described, moved = _read(arguments.folder, arguments.frames)
         frame = frame_of(read_run(arguments.folder).parameters, described["patient"], arguments.axes)
     except (LogError, SessionError, AnatomyError) as error:
         raise PreparationError(str(error)) from error
@@ -47,10 +48,12 @@ def run(arguments: argparse.Namespace) -> int:
     folder.mkdir(parents=True, exist_ok=True)
     curves = curves_of(recording, described, frame)
     times = next(channel.values[:, 0] for channel in recording.channels if channel.name == "time")
-    walls = [(_wall_name(k, recording), *frame.surface(wall)) for k, (_, wall) in enumerate(recording.walls)]
-    names = _write_series(folder, curves, times, frame)
-    for name, vertices, triangles in walls:
-        write_vtp(folder / f"{name}.vtp", vertices, triangles=triangles, space=frame.space)
+    walls = [Wall(_wall_name(k, recording), [frame.points(one) for one in places], frame.surface(wall)[1])
+             for k, ((_, wall), places) in enumerate(zip(recording.walls, moved))]
+    names = _write_series(folder, curves, walls, times, frame)
+    for wall in walls:
+        if not wall.moves:
+            write_vtp(folder / f"{wall.name}.vtp", wall.places[0], triangles=wall.triangles, space=frame.space)
     write_usd(folder / STAGE, curves, times, walls, frame, recording.title)
     write_whole(folder / TABLE, _table(recording, frame))
     for file in folder.iterdir():    # of an earlier export with more moments
@@ -61,18 +64,24 @@ def run(arguments: argparse.Namespace) -> int:
     print(f"frame: {frame.describe()}")
     moments = f"{len(times)} moment{'s' * (len(times) > 1)} of {', '.join(curve.title for curve in curves)}"
     print(f"written: {SERIES} ({moments}), {TABLE}, {STAGE}"
-          + "".join(f", {name}.vtp" for name, *_ in walls) + f" in {os.path.relpath(folder)}")
+          + "".join(f", {wall.name}{'-*' * wall.moves}.vtp" for wall in walls) + f" in {os.path.relpath(folder)}")
     return 0
 
 
-def _read(folder: Path, frames: int | None) -> tuple[Recording, dict]:
+def _read(folder: Path, frames: int | None) -> tuple[Recording, dict, list[list[np.ndarray]]]:
+    """Return the run, what is described of it, and the vertices of each wall: once, or at each moment."""
     found = read_run(folder)
     log = read_log(folder, "all")
     middle, diagonal = extent(log)
     with session_of(folder / PARAMETERS_NAME) as session:
-        walls = session.walls(middle, max(diagonal, 1.0))
+        walls, at = walls_of(session, found, log, middle, max(diagonal, 1.0))
         described = session.describe()
-        return read_recording(found, walls, frames or len(log.steps), described, session.places), described
+        recording = read_recording(found, walls, frames or len(log.steps), described, session.places)
+        steps = next(channel.values[:, 0] for channel in recording.channels if channel.name == "step")
+        moments = [walls] if at is None else [at(k) for k in np.searchsorted(log.steps, steps)]
+    moved = [[moment[k].vertices for moment in moments] for k in range(len(walls))]
+    return recording, described, [places if any((one != places[0]).any() for one in places) else places[:1]
+                                  for places in moved]
 
 
 def _wall_name(number: int, recording: Recording) -> str:
@@ -81,7 +90,8 @@ def _wall_name(number: int, recording: Recording) -> str:
     return "vessel" if kinds[number] == "vessel" else f"obstacle-{kinds[:number + 1].count('obstacle')}"
 
 
-def _write_series(folder: Path, curves: Sequence[Curve], times: np.ndarray, frame: Frame) -> set[str]:
+def _write_series(folder: Path, curves: Sequence[Curve], walls: Sequence[Wall], times: np.ndarray,
+                  frame: Frame) -> set[str]:
     names, rows = set(), []
     for moment, time in enumerate(times):
         for part, curve in enumerate(curves):
@@ -90,6 +100,11 @@ def _write_series(folder: Path, curves: Sequence[Curve], times: np.ndarray, fram
             write_vtp(folder / name, points, [np.arange(len(points))],
                       at_points={key: values[moment] for key, values in curve.arrays.items()}, space=frame.space)
             rows.append(f'<DataSet timestep="{time:.9g}" group="" part="{part}" name="{curve.name}" file="{name}"/>')
+            names.add(name)
+        for part, wall in enumerate((wall for wall in walls if wall.moves), len(curves)):
+            name = f"{wall.name}-{moment:05d}.vtp"
+            write_vtp(folder / name, wall.places[moment], triangles=wall.triangles, space=frame.space)
+            rows.append(f'<DataSet timestep="{time:.9g}" group="" part="{part}" name="{wall.name}" file="{name}"/>')
             names.add(name)
     write_whole(folder / SERIES, "\n".join([
         '<?xml version="1.0"?>', '<VTKFile type="Collection" version="0.1" byte_order="LittleEndian"><Collection>',

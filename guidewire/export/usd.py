@@ -6,6 +6,7 @@ https://openusd.org/release/api/class_usd_geom_basis_curves.html
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -19,14 +20,27 @@ _COLOURS = ((0.29, 0.66, 1.0), (1.0, 0.62, 0.18), (0.71, 0.55, 1.0), (0.37, 0.83
 _WALL = (0.72, 0.6, 0.58)
 
 
-def write_usd(path: Path, curves: Sequence[Curve], times: np.ndarray,
-              walls: Sequence[tuple[str, np.ndarray, np.ndarray]], frame: Frame, title: str) -> None:
+@dataclass(frozen=True)
+class Wall:
+    """places : vertices (v, 3), once or at each moment; triangles (t, 3)."""
+
+    name: str
+    places: list[np.ndarray]
+    triangles: np.ndarray
+
+    @property
+    def moves(self) -> bool:
+        """Whether there are several moments of it."""
+        return len(self.places) > 1
+
+
+def write_usd(path: Path, curves: Sequence[Curve], times: np.ndarray, walls: Sequence[Wall], frame: Frame,
+              title: str) -> None:
     """Write curves, and walls as meshes.
 
     Parameters
     ----------
     times : ndarray (k,), s.
-    walls : name, vertices (v, 3) and triangles (t, 3).
     """
     codes = CODES * times
     metres = 1e-3 if frame.unit == "mm" else 1.0
@@ -36,7 +50,7 @@ def write_usd(path: Path, curves: Sequence[Curve], times: np.ndarray,
         f"    endTimeCode = {codes[-1]:.9g}", f"    timeCodesPerSecond = {CODES:g}", f"    framesPerSecond = {CODES:g}",
         ")", "", 'def Xform "Run"', "{"]
     body = [line for k, curve in enumerate(curves) for line in _curve(curve, codes, _COLOURS[k % len(_COLOURS)])]
-    body += [line for wall in walls for line in _mesh(*wall)]
+    body += [line for wall in walls for line in _mesh(wall, codes)]
     write_whole(path, "\n".join([*head, *(f"    {line}" for line in body), "}"]) + "\n")
 
 
@@ -59,15 +73,16 @@ def _curve(curve: Curve, codes: np.ndarray, colour: tuple[float, ...]) -> Iterat
     yield "}"
 
 
-def _mesh(name: str, vertices: np.ndarray, triangles: np.ndarray) -> Iterator[str]:
-    yield f'def Mesh "{_name(name)}"'
+def _mesh(wall: Wall, codes: np.ndarray) -> Iterator[str]:
+    yield f'def Mesh "{_name(wall.name)}"'
     yield "{"
-    yield f"    float3[] extent = {_rows(np.array([vertices.min(axis=0), vertices.max(axis=0)]))}"
+    extents = [_rows(np.array([place.min(axis=0), place.max(axis=0)])) for place in wall.places]
+    yield from _sampled("float3[] extent", extents, codes)
     yield "    uniform bool doubleSided = 1"
     yield '    uniform token subdivisionScheme = "none"'
-    yield f"    int[] faceVertexCounts = [{', '.join(['3'] * len(triangles))}]"
-    yield f"    int[] faceVertexIndices = [{', '.join(map(str, triangles.ravel().tolist()))}]"
-    yield f"    point3f[] points = {_rows(vertices)}"
+    yield f"    int[] faceVertexCounts = [{', '.join(['3'] * len(wall.triangles))}]"
+    yield f"    int[] faceVertexIndices = [{', '.join(map(str, wall.triangles.ravel().tolist()))}]"
+    yield from _sampled("point3f[] points", [_rows(place) for place in wall.places], codes)
     yield f"    color3f[] primvars:displayColor = [({', '.join(f'{part:g}' for part in _WALL)})]"
     yield "    float[] primvars:displayOpacity = [0.3]"
     yield "}"

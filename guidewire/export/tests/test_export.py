@@ -16,7 +16,7 @@ from guidewire.anatomy.vtp import write_vtp
 from guidewire.commands.commands import parse, run
 from guidewire.export.curves import Curve, curves_of
 from guidewire.export.frame import frame_of
-from guidewire.export.usd import CODES, write_usd
+from guidewire.export.usd import CODES, Wall, write_usd
 from guidewire.logs.logs import read_log
 from guidewire.logs.surfaces import Surface
 from guidewire.prepare import ROOT, PreparationError
@@ -151,7 +151,7 @@ def test_usd_holds_curves_over_time_with_widths(tmp_path: Path) -> None:
     same = Curve("catheter-1", 'a "b"', [points[0]] * 2, [radii[0]] * 2)
     triangle = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]])
     write_usd(tmp_path / "a.usda", [Curve("wire", "wire", points, radii), same], np.array([0.0, 0.5]),
-              [("vessel", triangle, np.array([[0, 1, 2]]))], frame_of(MATERIAL, LPS, None), "a run")
+              [Wall("vessel", [triangle], np.array([[0, 1, 2]]))], frame_of(MATERIAL, LPS, None), "a run")
     prims = prims_of((tmp_path / "a.usda").read_text())
     assert {name: own[""] for name, own in prims.items()} == {
         "Run": "Xform", "Wire": "BasisCurves", "Catheter1": "BasisCurves", "Vessel": "Mesh"}
@@ -205,6 +205,28 @@ def test_a_run_of_a_wire_in_a_catheter_is_exported_where_it_is(live, tmp_path: P
     assert len(vessel) > 3000
     with pytest.raises(PreparationError, match="three letters that say where"):
         run(parse(["export", str(tmp_path / "run"), "--axes", "RAX"]))
+
+
+def test_a_vessel_that_moves_is_exported_as_a_series(live, tmp_path: Path) -> None:
+    scene = {"solver": "direct", "guidewireLength": 40, "guidewireOffset": -20, "numberRodElements": 10,
+             "proximalEnd": "clamped", "drive": "hold", "displacement": 0, "timeStep": 0.05, "deltaThreshold": 0,
+             "maxSimulationSteps": 4, "logEvery": 1, "vessel": {"shape": "tube", "knots": [[0, 0, -60], [0, 0, 60]],
+             "radius": 4, "motion": {"period": 1, "rampTime": 0, "rigid": {"translation": [0, 1, 0.5]}}},
+             "obstacles": [{"shape": "sphere", "centre": [30, 0, 0], "radius": 5}]}
+    (tmp_path / "scene.json").write_text(json.dumps(scene))
+    assert live.run(Request("a", tmp_path / "scene.json", tmp_path / "run")).exit_code == 0
+    assert run(parse(["export", str(tmp_path / "run")])) == 0
+    folder = tmp_path / "run" / "export"
+    places = [read_vtp(folder / f"vessel-{k:05d}.vtp")[0] for k in range(5)]
+    rows = ElementTree.parse(folder / "run.pvd").getroot().findall("Collection/DataSet[@name='vessel']")
+    prims = prims_of((folder / "run.usda").read_text())
+    seen = [one.reshape(-1, 3) for one in samples_of(prims["Vessel"]["points.timeSamples"]).values()]
+    for k in range(5):
+        moved = places[0] + np.sin(2 * np.pi * 0.05 * k) * np.array([0.0, 1.0, 0.5])
+        np.testing.assert_allclose(places[k], moved, atol=1e-9)
+        np.testing.assert_allclose(seen[k], moved, atol=1e-6)
+        assert (rows[k].get("timestep"), rows[k].get("file")) == (f"{0.05 * k:.9g}", f"vessel-{k:05d}.vtp")
+    assert (folder / "obstacle-1.vtp").is_file() and "points" in prims["Obstacle1"]
 
 
 def test_a_folder_without_a_run_is_one_line(tmp_path: Path) -> None:
