@@ -11,7 +11,6 @@ A_k = R_k^T (1/scale across t', 1/stretch along t'), R_k the shortest turn from 
 
 from __future__ import annotations
 
-import base64
 import csv
 import json
 from collections.abc import Iterator, Mapping
@@ -31,7 +30,6 @@ from guidewire.anatomy.triangles import read_stl
 SIZES = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "deg": np.pi / 180.0, "rad": 1.0}
 _STEPS = 30  # of Newton's method
 _SPACING = 2e-3  # m
-_PER_PIECE = 8  # points that the page draws, for each piece of a beam's centreline in a log
 _CHUNK = 4000  # points at once
 _NEAREST = 48  # points of the centreline, beyond which weights are below rounding
 _BEAT = ((0.0, 0.0), (0.08, 0.12), (0.2, 0.7), (0.32, 1.0), (0.4, 0.98), (0.5, 0.45), (0.6, 0.12), (0.7, 0.08),
@@ -375,36 +373,6 @@ class GivenVessel:
         shift = CubicSpline(self._stations, displaced)
         before, after = _units(self._rest(at, 1)), _units(self._rest(at, 1) + shift(at, 1))
         return self._rest(at) + shift(at) + _turned(before, after, points - self._rest(at))
-
-
-def given_walls(parameters: Mapping[str, Any]) -> list[int]:
-    """Return the numbers of the walls that give way as a beam: the vessel with what is in it, or none."""
-    if "beam" not in (parameters.get("vessel") or {}):
-        return []
-    return list(range(1 + len(parameters.get("obstacles") or ())))
-
-
-def drawn_beam(times: np.ndarray, centrelines: np.ndarray, count: int = 32) -> dict[str, Any]:
-    """Return what the page draws of a vessel that gave way during a run: a cycle as of `Session.describe`, which lasts
-    as long as the run. times : (k,) s; centrelines : (k, m, 6), as logs have them."""
-    rest = centrelines[0, :, :3]
-    stations = _arc(rest)
-    fine = np.linspace(0.0, stations[-1], _PER_PIECE * (len(rest) - 1) + 1)
-    curve, at = CubicSpline(stations, rest), np.linspace(times[0], times[-1], count)
-    before = _units(curve(fine, 1))
-    table = np.empty((count, len(fine), 12))
-    for k, time in enumerate(at):
-        next_one = min(np.searchsorted(times, time, side="right"), len(times) - 1)
-        last = max(next_one - 1, 0)
-        share = (time - times[last]) / (times[next_one] - times[last]) if next_one > last else 0.0
-        shift = CubicSpline(stations, (1.0 - share) * centrelines[last, :, 3:] + share * centrelines[next_one, :, 3:])
-        after = _units(curve(fine, 1) + shift(fine, 1))
-        turns = np.stack([_turned(before, after, np.tile(axis, (len(fine), 1))) - axis for axis in np.eye(3)], axis=-1)
-        table[k] = np.concatenate([shift(fine), turns.reshape(-1, 9)], axis=1)
-    period = max(float(times[-1] - times[0]), 1e-9) * count / (count - 1)
-    return {"period": period, "phase": -float(times[0]) / period, "ramp": 0.0, "spacing": float(fine[1]),
-            **{name: base64.b64encode(np.ascontiguousarray(values, dtype="<f4").tobytes()).decode()
-               for name, values in (("points", curve(fine)), ("displacements", table))}}
 
 
 def _units(vectors: np.ndarray) -> np.ndarray:

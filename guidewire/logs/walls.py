@@ -32,6 +32,13 @@ def read_displacements(run: Run, steps: np.ndarray, catheters: int) -> list[np.n
     return [columns[name] for name in names if name in columns]
 
 
+def given_walls(parameters: Mapping[str, Any]) -> list[int]:
+    """Return the numbers of the walls that give way as a beam: the vessel with what is in it, or none."""
+    if "beam" not in (parameters.get("vessel") or {}):
+        return []
+    return list(range(1 + len(parameters.get("obstacles") or ())))
+
+
 def drawn_of(run: Run, log: PositionLog) -> list[tuple[list[np.ndarray], list[np.ndarray]]]:
     """Return what each entry of a log is drawn by, as `State.drawn` has it. The log has all spheres."""
     displaced = []

@@ -182,6 +182,8 @@ class State:
     place : of the wire in the vessel; None where the scene has no inlet.
     vessel_phase, vessel_displacement : phase of the first cycle of a vessel that moves, 0 to 1, and how far it is
         displaced at the wire's tip, (3,), units; None where it stands still.
+    vessel_centreline : (m, 6), points at rest of the centreline of a vessel that gives way as a beam, and their
+        displacements, units; None where it does not.
     """
 
     step: int
@@ -208,6 +210,7 @@ class State:
     place: LumenPlace | None
     vessel_phase: float | None
     vessel_displacement: np.ndarray | None
+    vessel_centreline: np.ndarray | None
     _session: ClassVar[Callable[..., Session | None]] = _no_session
 
     def picture(self, **view: Any) -> np.ndarray:
@@ -342,7 +345,8 @@ def fill(state: State, part: int, arrays: Mapping[str, np.ndarray]) -> None:
         vars(state).update(hub=Hub(**_members("hub", arrays["hub"][0])) if "hub" in arrays else None,
                            catheters=_catheters(arrays), place=_place(arrays, ""),
                            vessel_phase=float(arrays["vesselPhase"][0, 0]) if "vesselPhase" in arrays else None,
-                           vessel_displacement=arrays.get("vesselDisplacement", [None])[0])
+                           vessel_displacement=arrays.get("vesselDisplacement", [None])[0],
+                           vessel_centreline=arrays.get("vesselCentreline"))
     else:
         vars(state).update({name: arrays.get(name) for name in _STRAINS},
                            energy=Energy(*arrays["energy"][0].tolist()) if "energy" in arrays else None)

@@ -12,6 +12,8 @@ from guidewire.installed import ROOT
 from guidewire.logs.logs import read_columns, read_log
 from guidewire.logs.runs import read_run
 from guidewire.runs.runner import Request
+from guidewire.sessions.session import Session
+from guidewire.viewer.live import LiveFrames
 from guidewire.viewer.recording import read_recording
 from guidewire.viewer.tests.test_page_session import doubles, follow
 from guidewire.viewer.tests.test_soft_walls import _padded
@@ -99,7 +101,15 @@ def test_pictures_draw_the_vessel_where_it_keeps_the_wire(live, tmp_path):
         recording.moveWalls(recording.count - 1);
         console.log(JSON.stringify({ moved: told(recording.walls[0].vertices) }));
         """, block=_padded(read_recording(own, rest, 100, {}, lambda _: []).to_bytes()))
-    np.testing.assert_allclose(doubles(got["moved"]).reshape(-1, 3), drawn, atol=0.1)
+    # Beyond its ends the tube goes on straight, and a small difference of the end's direction becomes large.
+    along = rest[0].vertices - ARC[-1]
+    within = (rest[0].vertices[:, 2] > -121.0) & (along @ (np.array(ARC[-1]) - ARC[-2]) < 2.0)
+    np.testing.assert_allclose(doubles(got["moved"]).reshape(-1, 3)[within], drawn[within], atol=0.1)
+    with Session(tmp_path / "scene.json", native=False) as session:
+        state, frames = session.step(steps=20), LiveFrames(session, "live")
+        np.testing.assert_array_equal(state.vessel_centreline, centrelines[-1])
+        held = {one.name: one.values for one in frames.record(0.0).channels}
+        np.testing.assert_array_equal(held["vesselCentreline"][-1], centrelines[-1].ravel())
 
 
 def test_a_beam_that_turns_as_a_body_is_drawn_as_one():

@@ -11,6 +11,7 @@ from guidewire.logs.logs import read_columns, read_log
 from guidewire.logs.runs import read_run
 from guidewire.prepare import ROOT
 from guidewire.runs.runner import Request
+from guidewire.sessions.session import Session
 
 BEND = np.array([[0.0, 60.0 * (1 - np.cos(a)), 60.0 * np.sin(a)] for a in np.linspace(-0.2, 1.4, 33)])
 SCENE = {"solver": "direct", "integrator": "implicitEuler", "timeStep": 0.02, "maxSimulationSteps": 40,
@@ -197,6 +198,23 @@ def test_a_field_that_folds_and_other_solvers_are_refused(live, scene, tmp_path)
     scene.write_text(json.dumps({**own, "solver": "xpbd", "integrator": "verlet"}))
     answer = live.run(Request("other", scene, tmp_path / "run"))
     assert answer.exit_code == 2 and "vessel.motion" in answer.message and "solver direct" in answer.message
+
+
+def test_contrast_agent_goes_with_its_vessel(tmp_path):
+    """A vessel that moves along itself is seen as the one that stands still is from a place that goes along."""
+    names, _ = _write_frames(tmp_path, np.c_[np.zeros((61, 2)), np.linspace(-60, 60, 61)], 3.0, [lambda x: x])
+    scene = {**SCENE, "rotation": [0, 0, 0], "position": [0, 0, 0], "timeStep": 0.1, "insertionSpeed": 0}
+    pictures = []
+    for motion in ({}, {"motion": {"period": 0.8, "rampTime": 0, "rigid": {"translation": [0, 0, 12]}}}):
+        vessel = {"shape": "mesh", "file": str(tmp_path / names[0]), "anatomy": str(tmp_path / "anatomy.json"), **motion}
+        with Session(**{**scene, "vessel": vessel}) as session:
+            session.step(steps=2)
+            session.inject(1.0, 10.0, None)
+            session.agent(0.1)
+            pictures.append(session.picture(vessel="injected", attenuation=0, field_of_view=60, pixels=96,
+                                            centre=[0, 0, 12 if motion else 0]).astype(int))
+    seen = [(picture < 150).sum() for picture in pictures]
+    assert 100 < seen[0] < 96 * 10 / 2 and np.abs(pictures[0] - pictures[1]).mean() < 0.3, seen
 
 
 @pytest.mark.long("a run of the shipped tree")

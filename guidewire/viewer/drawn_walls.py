@@ -7,11 +7,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from guidewire.anatomy.motion import GivenVessel, given_walls, motions_of
+from guidewire.anatomy.motion import GivenVessel, motions_of
 from guidewire.logs.logs import PositionLog, read_columns
 from guidewire.logs.runs import Run
 from guidewire.logs.surfaces import Surface
-from guidewire.logs.walls import drawn_of, soft_walls
+from guidewire.logs.walls import drawn_of, given_walls, soft_walls
 from guidewire.sessions.session import Session
 
 

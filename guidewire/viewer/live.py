@@ -218,6 +218,7 @@ class LiveFrames:
                                     ("reaction", state.reaction), ("strand_forces", state.strand_forces))},
             "lumen": lumen_of([state.place]), **read_off(state),
             "vessel_phase": None if state.vessel_phase is None else np.array([state.vessel_phase]),
+            "vessel_centreline": None if state.vessel_centreline is None else state.vessel_centreline[None],
         }
 
 

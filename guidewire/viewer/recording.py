@@ -19,7 +19,7 @@ from guidewire.logs.hub import HubCurve
 from guidewire.logs.logs import LogError, read_columns, read_log
 from guidewire.logs.runs import Run
 from guidewire.logs.surfaces import Surface
-from guidewire.logs.walls import name_walls, soft_walls
+from guidewire.logs.walls import given_walls, name_walls, soft_walls
 from guidewire.quantities import WIRE, catheter_name
 from guidewire.sessions.session import LumenPlace, State
 from guidewire.sessions.session_state import snake
@@ -247,6 +247,8 @@ def make_channels(units: Units, numbers: Mapping[str, np.ndarray | None]) -> lis
                  for name in known if name.startswith("wall_displacements")]
     if "vessel_phase" in known:
         channels.append(Channel("vesselPhase", "phase of the vessel's cycle", "1", "frame", known["vessel_phase"]))
+    if "vessel_centreline" in known:
+        channels.append(Channel("vesselCentreline", "", "units", "vector", _flat(known["vessel_centreline"])))
     if "lumen" in known:
         channels.append(Channel("lumen", "", "", "frame", known["lumen"]))
     channels += _at_the_hub(known, units, along)
@@ -382,7 +384,8 @@ def read_recording(run: Run, walls: Sequence[Surface], frames: int, described: M
     }
     numbers["lumen"] = lumen_of(places(log.positions[kept]))
     if (any(run.parameters.get(key) for key in ("logOrientations", "logContacts", "logStrains", "logHub"))
-            or run.parameters.get("sheath") is not None or any(described.get("motions", ()))):
+            or run.parameters.get("sheath") is not None or any(described.get("motions", ()))
+            or given_walls(run.parameters)):
         numbers.update(_read_more(run, log.steps[kept], len(log.catheters)))
     warnings = [line for line in (log.warning,) if line] + list((run.summary or {}).get("warnings", []))
     if len(finite) < len(log.steps):
@@ -393,21 +396,8 @@ def read_recording(run: Run, walls: Sequence[Surface], frames: int, described: M
         facts_of(run.parameters, run.summary), radius_of(run.parameters),
         [*make_channels(units_of(run.parameters), numbers), *_bands(curve, log.time[kept])],
         name_walls(run.parameters, walls),
-        sheath_of(run.parameters, numbers), described=_with_beam(run, described, log.steps[kept], log.time[kept]),
-        soft=soft_walls(run.parameters),
+        sheath_of(run.parameters, numbers), described=described, soft=soft_walls(run.parameters),
     )
-
-
-def _with_beam(run: Run, described: Mapping[str, Any], steps: np.ndarray, times: np.ndarray) -> Mapping[str, Any]:
-    """Return what is described of a run, where a vessel that gives way as a beam moves as its centreline in the log."""
-    if "beam" not in (run.parameters.get("vessel") or {}):
-        return described
-    from guidewire.anatomy.motion import drawn_beam
-
-    centrelines = read_columns(run.folder, ["vesselCentreline"], steps)["vesselCentreline"]
-    cycle = drawn_beam(times, np.asarray(centrelines, dtype=float))
-    count = 1 + len(run.parameters.get("obstacles") or ())
-    return {**described, "motions": [[*own, cycle] for own in described.get("motions", [[]] * count)]}
 
 
 def _bands(curve: HubCurve | None, times: np.ndarray) -> list[Channel]:
@@ -461,7 +451,8 @@ def _read_more(run: Run, steps: np.ndarray, catheters: int) -> dict[str, np.ndar
     shown = {"contactForces": "contact_forces", "wallDisplacements": "wall_displacements"}    # also of catheters
     names = {name: shown.get(name, name) for name in (
         "orientations", "reaction", "curvature", "force", "couple", "inBody", *ENERGIES, *CORE, *shown)}
-    names |= {"strandForces": "strand_forces", "vesselPhase": "vessel_phase"}
+    names |= {"strandForces": "strand_forces", "vesselPhase": "vessel_phase",
+              "vesselCentreline": "vessel_centreline"}
     names |= {name: f"hub.{_ROWS[name].key}" for name in _HUB}
     for number in range(catheters):
         names |= {catheter_name(name, number): f"{to}{number + 1}" for name, to in shown.items()}

@@ -80,11 +80,7 @@ namespace Guidewire.Core
             set
             {
                 _contrast = value;
-                if (value != null && _vessel.HasValue)
-                {
-                    _fluoroscopy.SetCells(Array.ConvertAll(value.Middles, point => 1.0 / _perUnit * point),
-                        Array.ConvertAll(value.Radii, radius => radius / _perUnit));
-                }
+                SetCells(null);
             }
         }
 
@@ -114,13 +110,19 @@ namespace Guidewire.Core
                 Blur = asked.Blur / _perUnit,
             };
             Place(centrelines, view.Attenuation);
+            bool isMoved = false;
             for (int k = 0; k < _walls.Count; k++)
             {
                 if (_walls[k].Move(centrelines, displacements ?? Array.Empty<Vector3d[]>(),
                     now?.FieldOf(_numbers[k])))
                 {
                     _fluoroscopy.Move(k, _walls[k].Vertices);
+                    isMoved |= k == 0 && now?.FieldOf(_numbers[0]) != null;
                 }
+            }
+            if (isMoved && asked.Vessel == VesselContrast.Injected)
+            {
+                SetCells(now!.FieldOf(_numbers[0]));
             }
             var shown = new List<ImagedInstrument>(_drawn);
             if (shown.Count > 1)
@@ -130,6 +132,19 @@ namespace Guidewire.Core
             }
             _fluoroscopy.Draw(shown, Arm(centrelines[0], view), settings, grey,
                 _contrast != null ? _contrast.Parts : default);
+        }
+
+        // Contrast agent goes with the vessel; null: that is at rest.
+        private void SetCells(WallField? field)
+        {
+            if (_contrast != null && _vessel.HasValue)
+            {
+                _fluoroscopy.SetCells(Array.ConvertAll(_contrast.Middles, point =>
+                    {
+                        Vector3d rest = 1.0 / _perUnit * point;
+                        return field?.Moved(rest) ?? rest;
+                    }), Array.ConvertAll(_contrast.Radii, radius => radius / _perUnit));
+            }
         }
 
         private static ImagedInstrument InstrumentOf(SimulationParameters parameters, bool isMaterial, double metres)

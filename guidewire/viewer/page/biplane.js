@@ -42,6 +42,7 @@ export class SecondPlane {
     this._fluoroscopy.look = { ...first.look, lao, seed: first.look.seed + 1, isSubtracted: false };
     this._fluoroscopy.parts = first.parts;
     this._fluoroscopy.moves = first.moves;
+    this._fluoroscopy.middles = first.middles;
     this._fluoroscopy.showsPatient = first.showsPatient;
     this._fluoroscopy.draw(instruments, !byId("measured").checked);
     byId("secondArm").textContent = `second plane, ${this._fluoroscopy.angles[0]}`;

@@ -10,6 +10,7 @@ const VOXELS = 128;
 export class LumenCells {
   /** @param {{middles: number[], radii: number[]}} cells units @param {[Point, Point]} box of the vessels, units */
   constructor({ middles, radii }, [low, high]) {
+    /** @type {ArrayLike<number>} */
     this._middles = middles;
     this._radii = radii;
     this._low = low;
@@ -24,8 +25,13 @@ export class LumenCells {
     this._lengths = new Float64Array(0);
   }
 
-  /** Looks at the vessels anew. @param {import("./carm.js").CArm} arm @param {import("./lumen.js").Lumen[]} lumens */
-  look(arm, lumens) {
+  /** Looks at the vessels anew. @param {import("./carm.js").CArm} arm @param {import("./lumen.js").Lumen[]} lumens
+   * @param {ArrayLike<number> | null} [middles] where the cells are now; null: where they were */
+  look(arm, lumens, middles = null) {
+    if (middles) {
+      this._middles = middles;
+      this._cells.fill(0);
+    }
     /** @type {{pixels: number[], depths: number[], signs: number[]}} */
     const found = { pixels: [], depths: [], signs: [] };
     for (const lumen of lumens) lumen.cross(arm, found);

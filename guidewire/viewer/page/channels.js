@@ -97,6 +97,7 @@ export function makeChannels(rules, parameters, state, hasWalls, measured) {
     if (state[name]) add(name, "", "units", "vector", state[name].map((value) => perUnit * value));
   }
   if (state.vesselPhase) add("vesselPhase", "phase of the vessel's cycle", "1", "frame", state.vesselPhase);
+  if (state.vesselCentreline) add("vesselCentreline", "", "units", "vector", state.vesselCentreline);
   if (state.lumen) add("lumen", "", "", "frame", [state.lumen[5], state.lumen[1], state.lumen[0]]);
   const hub = (/** @type {string} */ key) => state.hub?.[HUB[key]] ?? NaN;
   const hubName = (/** @type {string} */ key) => key[0].toUpperCase() + key.slice(1);

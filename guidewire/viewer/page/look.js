@@ -78,7 +78,9 @@ export class View {
     /** Brightness of the patient over the background's. */
     this._shade = new Float64Array(0);
     /** Counts how often walls that give way were moved. */
-    this.moves = this._movesShown = 0;
+    this.moves = this._movesShown = this._cellsMoves = 0;
+    /** Of the cells in a vessel that moves, units. @type {Float32Array | null} */
+    this.middles = null;
     /** Brightness of background and vessel. */
     this._brightness = new Float32Array(0);
   }
@@ -199,11 +201,9 @@ export class View {
   /** Darkens by the agent. @param {CArm} arm @param {string} seen */
   _fill(arm, seen) {
     if (!this._cells || !this.parts) return;
-    if (seen !== this._cellsSeen) {
-      this._cells.look(arm, this._lumens);
-      this._peak.fill(0);
-    }
-    this._cellsSeen = seen;
+    if (seen !== this._cellsSeen) this._peak.fill(0);
+    if (seen !== this._cellsSeen || this.moves !== this._cellsMoves) this._cells.look(arm, this._lumens, this.middles);
+    [this._cellsSeen, this._cellsMoves] = [seen, this.moves];
     this._cells.sum(this.parts, this._agent);
     for (let i = 0; i < this._agent.length; i++) {
       if (this._agent[i] > this._peak[i]) this._peak[i] = this._agent[i];

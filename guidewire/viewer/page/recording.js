@@ -80,21 +80,23 @@ export class Recording {
     this.radius = radius;
     this.channels = new Map(channels.map((channel) => [channel.name, channel]));
     this.walls = walls;
+    this.described = described;
     /** Vertices at rest, of walls that give way or move. @type {Map<Wall, Carried>} */
     this._atRest = new Map();
+    const bent = this._bent(0);
     walls.forEach((wall, k) => {
       const cycles = described?.motions?.[k] ?? [];
-      wall.isStill = !wall.isSoft && !cycles.length;
-      if (!wall.isStill) this._atRest.set(wall, new Carried(wall.vertices.slice(), cycles));
+      wall.isStill = !wall.isSoft && !cycles.length && !bent;
+      if (!wall.isStill) this._atRest.set(wall, new Carried(wall.vertices.slice(), cycles, bent));
     });
     /** The target, which goes with its vessel. */
-    this._target = new Carried(Float32Array.from(described?.target?.points.at(-1) ?? []), described?.motions?.[0] ?? []);
+    this._target = this.withVessel(Float32Array.from(described?.target?.points.at(-1) ?? []));
+    this._cells = this.withVessel(Float32Array.from(described?.cells?.middles ?? []));
     this._isMoved = false;
     this._box = this.box;
     /** Counts how often vertices were moved. */
     this.moves = 0;
     this.sheath = sheath;
-    this.described = described;
     /** Of a unit. */
     this.millimetres = this.described?.millimetresPerUnit ?? 1;
     /** @type {import("./pieces.js").Instrument[]} */
@@ -197,9 +199,20 @@ export class Recording {
   }
 
   /** The time of a frame, s, and the phase of the vessel's first cycle, where that is known. @param {number} frame
-   * @returns {[number, number?]} */
+   * and the centreline of a vessel that gives way as a beam.
+   * @returns {[number, number?, Float64Array?]} */
   _moment(frame) {
-    return [this.at("time", frame)[0], this.channels.has("vesselPhase") ? this.at("vesselPhase", frame)[0] : undefined];
+    return [this.at("time", frame)[0], this.channels.has("vesselPhase") ? this.at("vesselPhase", frame)[0] : undefined, this._bent(frame)];
+  }
+
+  /** @param {number} frame */
+  _bent(frame) {
+    return this.channels.has("vesselCentreline") ? this.at("vesselCentreline", frame) : undefined;
+  }
+
+  /** Places that go with the vessel. @param {Float32Array} rest */
+  withVessel(rest) {
+    return new Carried(rest, this.described?.motions?.[0] ?? [], this._bent(0));
   }
 
   /** Where the target is in a frame, units; without one no place. @param {number} frame */
@@ -207,6 +220,14 @@ export class Recording {
     const place = this._target.rest.slice();
     this._target.move(place, ...this._moment(frame));
     return place;
+  }
+
+  /** Where the middles of the cells for contrast agent are, units; null where the vessel stands still. @param {number} frame */
+  cellsAt(frame) {
+    if (!this._cells.isMoving) return null;
+    const places = this._cells.rest.slice();
+    this._cells.move(places, ...this._moment(frame));
+    return places;
   }
 
   /** The last sphere that is in a sheath, or the first of all. @param {number} frame */

@@ -14,7 +14,7 @@
 import { factsOf, largestShown, makeChannels, radiusOf, sheathOf } from "./channels.js";
 
 const HEAD = 4; // numbers before the arrays of a step
-const ARRAYS = /^(positions|orientations|catheter|lumen|contactForces|strandForces|wallDisplacements)\d+$|^(positions|velocities|orientations|angularVelocities|contactForces|strandForces|wallDisplacements|reaction|hub|lumen|vesselPhase|vesselDisplacement|strain|force|curvature|couple|energy)$/;
+const ARRAYS = /^(positions|orientations|catheter|lumen|contactForces|strandForces|wallDisplacements)\d+$|^(positions|velocities|orientations|angularVelocities|contactForces|strandForces|wallDisplacements|reaction|hub|lumen|vesselPhase|vesselDisplacement|vesselCentreline|strain|force|curvature|couple|energy)$/;
 const NOT_ALLOWED = /^(?:.*: )?(\w+) = .* is not allowed: (needs .*)$/s;
 
 /** What the program does not do. The message is one line. */

@@ -232,6 +232,7 @@ export class Xray {
     look.seed = this._frames++;
     const instruments = this._clearInstruments;
     this.fluoroscopy.moves = recording.moves;
+    if (this.fluoroscopy.parts) this.fluoroscopy.middles = recording.cellsAt(this._models[0].frame);
     this.fluoroscopy.showsPatient = byId("patient").checked && !byId("measured").checked;
     this.fluoroscopy.draw(instruments, !byId("measured").checked);
     this.cine.take(this.fluoroscopy.canvas);

@@ -50,9 +50,9 @@ namespace Guidewire.Core
         public void SetCells(Vector3d[] middles, double[] radii)
         {
             var corners = new List<Vector3d>();
-            foreach (WallSurface vessel in _vessels)
+            for (int k = 0; k < _vessels.Count; k++)
             {
-                corners.AddRange(vessel.Vertices);
+                corners.AddRange(_moved[k] ?? _vessels[k].Vertices);
             }
             Extents box = Extents.Of(corners);
             _cells = new LumenCells(middles, radii, box.Low, box.High);

@@ -146,7 +146,7 @@ namespace Guidewire.Io
             new Quantity("vesselCentreline", QuantityPlace.Point, "x y z dx dy dz", "units",
                 "points of the centreline, at rest, of a vessel that gives way as a beam, and their displacements",
                 m => Moment.Of(m.Simulation.FieldOf(0)?.Centreline())) { Switch = QuantitySwitch.Always }
-                .Json("vesselCentreline"),
+                .Json("vesselCentreline").InAnswer(StatePart.Instruments),
         };
 
         /// <summary>Those of a catheter, in the order of its array in an answer.</summary>
