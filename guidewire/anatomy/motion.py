@@ -369,10 +369,19 @@ class GivenVessel:
 
     def moved(self, points: np.ndarray, displaced: np.ndarray) -> np.ndarray:
         """Return where points (k, 3) at rest are with the centreline displaced by (m, 3)."""
-        at = self._fine[self._near.query(points)[1]]
+        return self._turned(points, self._near, CubicSpline(self._stations, np.zeros_like(displaced)),
+                            CubicSpline(self._stations, displaced))
+
+    def at_rest(self, points: np.ndarray, displaced: np.ndarray) -> np.ndarray:
+        """Return where points (k, 3) that are there with the centreline displaced by (m, 3) are at rest."""
         shift = CubicSpline(self._stations, displaced)
-        before, after = _units(self._rest(at, 1)), _units(self._rest(at, 1) + shift(at, 1))
-        return self._rest(at) + shift(at) + _turned(before, after, points - self._rest(at))
+        return self._turned(points, cKDTree(self._rest(self._fine) + shift(self._fine)), shift,
+                            CubicSpline(self._stations, np.zeros_like(displaced)))
+
+    def _turned(self, points: np.ndarray, near: cKDTree, one: CubicSpline, other: CubicSpline) -> np.ndarray:
+        at = self._fine[near.query(points)[1]]
+        before, after = _units(self._rest(at, 1) + one(at, 1)), _units(self._rest(at, 1) + other(at, 1))
+        return self._rest(at) + other(at) + _turned(before, after, points - self._rest(at) - one(at))
 
 
 def _units(vectors: np.ndarray) -> np.ndarray:

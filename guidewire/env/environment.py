@@ -231,7 +231,7 @@ class Environment(Env):
         self._draw = draw
         self._route = self._scene.route(self.task.targets[draw.target])
         self._instruments = instruments_of(self.session_state)
-        self._route.set_time(self.session_state.time)
+        self._route.follow(self.session_state)
         self._places = self._found()
         self._first = max(sum(self._remaining()), 1e-9)
         steps = self.drive.step_time / self._scene.time_step
@@ -454,7 +454,7 @@ class Environment(Env):
         of one that is would be read off."""
         before, began = self._instruments, self.session_state.time
         self._instruments = instruments_of(self.session.step(pushes, turns))
-        self._route.set_time(self.session_state.time)
+        self._route.follow(self.session_state)
         return self.session_state.time - began, before, self._instruments
 
     def _within_ends(self, pushes: list[float]) -> list[float]:

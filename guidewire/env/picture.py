@@ -113,7 +113,8 @@ class PictureState:
             planes, labels = [], []
             if (picture.target or picture.labels) and not self._arms:
                 self._look(state)
-            if picture.labels and (not self._vessels or (state.session.parameters["vessel"] or {}).get("motion")):
+            vessel = state.session.parameters["vessel"] or {}
+            if picture.labels and (not self._vessels or vessel.keys() & {"motion", "beam"}):
                 self._vessels = [self._vessel(state, arm, view, shared) for arm, view in zip(self._arms, picture.views)]
             for k, (lao, cranial) in enumerate(picture.views):
                 shared |= self._arms[k].place if self._arms else {}

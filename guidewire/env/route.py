@@ -12,7 +12,8 @@ import numpy as np
 from guidewire.env.spaces import Error
 
 if TYPE_CHECKING:
-    from guidewire.anatomy.motion import VesselMotion
+    from guidewire.anatomy.motion import GivenVessel, VesselMotion
+    from guidewire.sessions.session import State
 
 
 class Placement(NamedTuple):
@@ -70,10 +71,12 @@ class Route:
     Notes
     -----
     A point p belongs to the sphere of the centreline with the least |p - c|^2 - r^2, as in the runner's summary. Of a
-    vessel that moves p and the centreline are those at rest.
+    vessel that moves or gives way p and the centreline are those at rest.
     """
 
     motion: VesselMotion | None = None
+    _bent: np.ndarray | None = None    # centreline of a vessel that gives way, as of a state
+    _given: GivenVessel | None = None
 
     def __init__(self, anatomy: Mapping[str, Any], target: str | int | Sequence[Any] | Mapping[str, Any],
                  unit: float = 1.0, placement: Placement | None = None) -> None:
@@ -148,16 +151,25 @@ class Route:
         """(3,), units, where it is now."""
         return self._now(self.points[self.target])
 
-    def set_time(self, time: float) -> None:
-        """Go to a time, s, in which a vessel moves."""
+    def follow(self, state: State) -> None:
+        """Take the vessel as it is in a state: one that moves, or gives way as a beam."""
         if self.motion is not None:
-            self.motion.set_time(time)
+            self.motion.set_time(state.time)
+        line, before = state.vessel_centreline, self._bent
+        self._bent = line
+        if line is not None and (before is None or not np.array_equal(before[:, :3], line[:, :3])):
+            from guidewire.anatomy.motion import GivenVessel    # needs scipy
+
+            self._given = GivenVessel(line[:, :3])
 
     def _now(self, point: np.ndarray) -> np.ndarray:
+        if self._bent is not None:
+            point = self._given.moved(point[None], self._bent[:, 3:])[0]
         return point if self.motion is None else self.motion.moved(point[None])[0]
 
     def _at_rest(self, point: np.ndarray) -> np.ndarray:
-        return point if self.motion is None else self.motion.at_rest(point[None])[0][0]
+        point = point if self.motion is None else self.motion.at_rest(point[None])[0][0]
+        return point if self._bent is None else self._given.at_rest(point[None], self._bent[:, 3:])[0]
 
     def _move(self, placement: Placement) -> None:
         scale, turn = placement.scale, placement.rotation.T

@@ -8,11 +8,13 @@ from scipy.interpolate import CubicSpline
 
 from guidewire.anatomy.motion import GivenVessel
 from guidewire.commands.drawn import walls_of
+from guidewire.env.route import Route
 from guidewire.installed import ROOT
 from guidewire.logs.logs import read_columns, read_log
 from guidewire.logs.runs import read_run
 from guidewire.runs.runner import Request
 from guidewire.sessions.session import Session
+from guidewire.tests.test_motion import write_frames
 from guidewire.viewer.live import LiveFrames
 from guidewire.viewer.recording import read_recording
 from guidewire.viewer.tests.test_page_session import doubles, follow
@@ -104,12 +106,33 @@ def test_pictures_draw_the_vessel_where_it_keeps_the_wire(live, tmp_path):
     # Beyond its ends the tube goes on straight, and a small difference of the end's direction becomes large.
     along = rest[0].vertices - ARC[-1]
     within = (rest[0].vertices[:, 2] > -121.0) & (along @ (np.array(ARC[-1]) - ARC[-2]) < 2.0)
-    np.testing.assert_allclose(doubles(got["moved"]).reshape(-1, 3)[within], drawn[within], atol=0.1)
+    np.testing.assert_allclose(doubles(got["moved"]).reshape(-1, 3)[within], drawn[within], atol=0.05)
     with Session(tmp_path / "scene.json", native=False) as session:
         state, frames = session.step(steps=20), LiveFrames(session, "live")
         np.testing.assert_array_equal(state.vessel_centreline, centrelines[-1])
         held = {one.name: one.values for one in frames.record(0.0).channels}
         np.testing.assert_array_equal(held["vesselCentreline"][-1], centrelines[-1].ravel())
+
+
+def test_environments_have_their_distances_in_the_vessel_that_gave_way(tmp_path):
+    """As the core has them, whose map has the beam's own splines."""
+    names, _ = write_frames(tmp_path, np.concatenate([np.c_[np.zeros((10, 2)), np.linspace(-10, -1, 10)], ARC]), 3.0,
+                            [lambda x: x])
+    vessel = {"shape": "mesh", "file": str(tmp_path / names[0]), "anatomy": str(tmp_path / "anatomy.json"),
+              "beam": {**BEAM, "foundation": 300}}
+    scene = {key: value for key, value in SCENE.items() if key != "guidewireOffset"}
+    with Session(**{**scene, "vessel": vessel, "sheath": {}, "inlet": 1, "target": 2}) as session:
+        state = session.step(steps=20)
+        route = Route(json.loads((tmp_path / "anatomy.json").read_text()), 2)
+        route.follow(state)
+        tip = state.positions[-1]
+        assert route.place(tip)[1] == pytest.approx(state.place.left, abs=0.2)
+        np.testing.assert_allclose(tip - route._at_rest(tip), state.vessel_displacement, atol=0.02)
+    assert np.linalg.norm(state.vessel_displacement) > 0.3
+    line = state.vessel_centreline
+    near = line[:, :3] + np.random.default_rng(3).uniform(-1.5, 1.5, (len(line), 3))
+    beam = GivenVessel(line[:, :3])
+    np.testing.assert_allclose(beam.at_rest(beam.moved(near, line[:, 3:]), line[:, 3:]), near, atol=0.02)
 
 
 def test_a_beam_that_turns_as_a_body_is_drawn_as_one():

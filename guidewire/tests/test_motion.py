@@ -78,7 +78,7 @@ def test_the_centreline_goes_where_the_table_says(tmp_path, size):
         np.testing.assert_allclose(motion.moved(placed(points)), placed(points + moved[0][k]), atol=0.03)
 
 
-def _write_frames(folder, line, radius, maps):
+def write_frames(folder, line, radius, maps):
     """Write a tube around a line (k, 3) as each map moves it, and its anatomy; return names and vertices at rest."""
     tangents = np.gradient(line, axis=0)
     tangents /= np.linalg.norm(tangents, axis=1)[:, None]
@@ -111,7 +111,7 @@ def beating(tmp_path):
     """A mesh that bends, with its frames: a parameter file."""
     maps = [lambda x, s=np.sin(2 * np.pi * p / 10): x + s * np.clip(x[:, 2:] / 40, 0, 2)**2 * [2, -1, 0.5]
             for p in range(10)]
-    names, _ = _write_frames(tmp_path, LINE, 3.0, maps)
+    names, _ = write_frames(tmp_path, LINE, 3.0, maps)
     own = json.loads(json.dumps(SCENE))
     own["vessel"] = {"shape": "mesh", "file": names[0], "anatomy": "anatomy.json",
                      "motion": {"period": 0.5, "phase": 0.3, "frames": names}}
@@ -145,7 +145,7 @@ def test_twist_and_width_of_frames_are_those_of_the_closed_form(tmp_path):
                          wide * (np.sin(angle) * x[:, 0] + np.cos(angle) * x[:, 1]), x[:, 2] * (1 + 0.1 * (wide - 1))]
         return moved
 
-    names, rest = _write_frames(tmp_path, line, 3.0, [at(phase) for phase in phases])
+    names, rest = write_frames(tmp_path, line, 3.0, [at(phase) for phase in phases])
     motion = VesselMotion({"period": 1, "rampTime": 0, "frames": [str(tmp_path / name) for name in names]}, 1e-3,
                           vessel={"anatomy": str(tmp_path / "anatomy.json")})
     for phase in (0.25, 0.75, 0.375):    # the last one lies between frames
@@ -202,7 +202,7 @@ def test_a_field_that_folds_and_other_solvers_are_refused(live, scene, tmp_path)
 
 def test_contrast_agent_goes_with_its_vessel(tmp_path):
     """A vessel that moves along itself is seen as the one that stands still is from a place that goes along."""
-    names, _ = _write_frames(tmp_path, np.c_[np.zeros((61, 2)), np.linspace(-60, 60, 61)], 3.0, [lambda x: x])
+    names, _ = write_frames(tmp_path, np.c_[np.zeros((61, 2)), np.linspace(-60, 60, 61)], 3.0, [lambda x: x])
     scene = {**SCENE, "rotation": [0, 0, 0], "position": [0, 0, 0], "timeStep": 0.1, "insertionSpeed": 0}
     pictures = []
     for motion in ({}, {"motion": {"period": 0.8, "rampTime": 0, "rigid": {"translation": [0, 0, 12]}}}):

@@ -8,7 +8,7 @@
 
 const NEAREST = 8; // points that a place goes with, weighed as the core weighs them
 const SWEEPS = 30;
-const PER_PIECE = 8; // points that are drawn of a beam, for each that is known
+const PER_PIECE = 4; // points that are drawn of a beam, for each that is known
 
 /** @param {string} text */
 const floats = (text) => new Float32Array(Uint8Array.from(atob(text), (one) => one.charCodeAt(0)).buffer);

@@ -334,6 +334,7 @@ namespace Guidewire.Core
     /// u = (c + w)' - R c' + (J(a) a') x R v, dx/dX = R + u c'^T/m.</remarks>
     internal sealed class BeamField
     {
+        private const int Stride = WallBeam.PiecesPerSpline / 2;
         private const int MaxSteps = 60;
         private const double Rounding = 1e-15;       // of the centreline's length
 
@@ -363,14 +364,14 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Every <see cref="WallBeam.PiecesPerSpline"/>th point of the centreline at rest, each with its
-        /// displacement behind it, units.</summary>
+        /// <summary>Points of the centreline at rest, two from spline to spline, each with its displacement behind it,
+        /// units.</summary>
         public Vector3d[] Centreline()
         {
-            var points = new Vector3d[2 * ((_moved.Length - 1) / WallBeam.PiecesPerSpline + 1)];
+            var points = new Vector3d[2 * ((_moved.Length - 1) / Stride + 1)];
             for (int k = 0; k < points.Length; k += 2)
             {
-                int at = WallBeam.PiecesPerSpline * k / 2;
+                int at = Stride * k / 2;
                 (points[k], points[k + 1]) = (_beam.Point(at), _moved[at] - _beam.Point(at));
             }
             return points;

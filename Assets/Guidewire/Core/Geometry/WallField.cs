@@ -90,8 +90,8 @@ namespace Guidewire.Core
         /// <returns>Whether they are others; never without a beam.</returns>
         internal bool SetBeam(Vector3d[] q, double units) => _beam != null && _beam.Set(q, units);
 
-        /// <summary>Points of the centreline of its beam at rest, one more than there are pieces between its splines,
-        /// each with its displacement by the beam behind it, units; null: it has none.</summary>
+        /// <summary>Points of the centreline of its beam at rest, two from spline to spline, each with its displacement
+        /// by the beam behind it, units; null: it has none.</summary>
         public Vector3d[]? Centreline() => _beam?.Centreline();
 
         /// <summary>The largest turn of a section of its beam, radians.</summary>
