@@ -146,7 +146,8 @@ namespace Guidewire.Core
                 int hint = -1;
                 if (radius < Length && !wall.Nearest(c, c, radius, ref hint, out _))
                 {
-                    return "its centreline bends more tightly than the vessel is wide at " + c;
+                    return "its centreline bends more tightly than the vessel is wide at " + c
+                        + "; if that is a corner, a larger spacing rounds it";
                 }
             }
             return null;

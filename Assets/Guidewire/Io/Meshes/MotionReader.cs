@@ -304,7 +304,7 @@ namespace Guidewire.Io
             List<double[]>[]? rows)
         {
             double length = units * (stations[stations.Length - 1] - stations[0]);
-            int count = Math.Max(2, (int)Math.Min(MostPoints, Math.Round(length / spacing) + 1.0));
+            int count = Math.Max(2, (int)Math.Min(MostPoints + 1, Math.Round(length / spacing) + 1.0));
             var points = new Vector3d[count];
             var values = new double[given[0][0].Length];
             for (int p = 0; p < given.Length; p++)
