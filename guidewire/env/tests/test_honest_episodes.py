@@ -2,6 +2,7 @@
 
 import json
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -9,8 +10,10 @@ import pytest
 from guidewire.env import Drive, Environment, Observation, Picture, Reward, all_tasks
 from guidewire.env.baselines import Chance, baseline_of, parts_of
 from guidewire.env.draws import draw_of, eased_draw, with_options
-from guidewire.env.picture import WIRE, CArm
-from guidewire.env.route import Route
+from guidewire.env.instruments import Instrument
+from guidewire.env.observation import Observer
+from guidewire.env.picture import WIRE, CArm, PictureState
+from guidewire.env.route import Placement, Route
 from guidewire.env.score import play
 from guidewire.env.spaces import Error
 from guidewire.env.task import find_task
@@ -276,3 +279,34 @@ def test_a_difficulty_orders_targets_and_draws(name):
         own.difficulty = 1.5
         with pytest.raises(Error, match="from 0 to 1"):
             own.reset()
+
+
+def test_ways_of_a_vessel_that_is_scaled_are_scaled():
+    points = [[0.0, 0.0, 2.0 * k] for k in range(21)]
+    route = Route(anatomy_of(points, 2.0, [1] * 21, [k - 1 for k in range(21)], [0, 20]), ("branch 1", 30.0))
+    twice = route.placed(Placement.of({"scale": [2.0, 2.0, 2.0], "position": [1.0, 2.0, 3.0]}))
+    for point in route.points[[4, 9]] + [0.3, 0.0, 0.4]:
+        there = 2.0 * point + [1.0, 2.0, 3.0]
+        assert twice.until_outlet(there) == pytest.approx(2.0 * route.until_outlet(point))
+        assert twice.place(there)[1] == pytest.approx(2.0 * route.place(point)[1])
+
+
+def test_every_picture_that_was_begun_is_an_exposure_of_each_plane():
+    state = PictureState(Picture(views=((0.0, 0.0), (90.0, 0.0)), every=3), 0)
+    counts = []
+    for step in range(7):
+        state.restore((step, 0), [])
+        counts.append(state.exposures)
+    assert counts == [0, 2, 2, 2, 4, 4, 4]
+
+
+def test_loads_and_insertions_are_in_the_units_of_observations():
+    points = [[0.0, 0.0, 2.0 * k] for k in range(5)]
+    route = Route(anatomy_of(points, 2.0, [1] * 5, [k - 1 for k in range(5)], [0, 4]), 2)
+    hub = SimpleNamespace(insertion=0.03, turn=1.5, force=0.2, torque=4e-3, tip_direction=np.array([0.0, 0.0, 1.0]))
+    forces = np.array([[0.0, 3.0, 4.0], [0.0, 0.0, 1.0]])
+    wire = Instrument(np.zeros((2, 3)), np.array([[0.0, 0.0, 0.0, 1.0]]), forces, None, None, hub)
+    seen = Observer(Observation(("hub", "loads", "wall")), route, 1e-3, 1, 0).of(None, [wire], [(0, 8.0)])
+    assert seen["hub"] == pytest.approx([30.0, 1.5]), "mm"
+    assert seen["loads"] == pytest.approx([0.2, 4.0]), "N, N mm"
+    assert seen["wall"] == pytest.approx([5.0, 6.0])
