@@ -295,6 +295,10 @@ namespace Guidewire.Core
         {
             _spinLoss?.AddSteps(Terms.Rod, Shape, Spins, length,
                 Math.Max(1, _dynamics.Control.Steps - _innerSteps));
+            if (_scene.Supports.Coaxial != null)
+            {
+                _scene.Rod.SetJoints(_scene.Supports, _joints);    // tips that move change the lengths of elements
+            }
             _extremes.TakeShape(Terms, _joints, _jointLengths, Shape, Time);
             _extremes.TakeFibres(Terms, Shape, Time);
             if (_elementForces == null)
@@ -441,6 +445,7 @@ namespace Guidewire.Core
             }
             _results.HalvedSteps = _dynamics.Clock.Halvings;
             _results.InnerSteps = _dynamics.Control.Steps;
+            Terms.SetTime(Schedule, Time);
             _results.Energy = _dynamics.Energy;
             _results.ProximalForce = _dynamics.ReactionAt(0);
             _results.DistalForce = _scene.Supports.Distal != DistalEnd.Free ? _dynamics.ReactionAt(Shape.ElementCount)

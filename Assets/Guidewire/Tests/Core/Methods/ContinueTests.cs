@@ -133,17 +133,17 @@ namespace Guidewire.Core.Tests
             byte[] start = through.Save();
             Wires.Step(through, 23);
             byte[] middle = through.Save();
-            AssertSameBits(Simulation.Restore(parameters, middle), through, "where it was saved");
+            SameRun.AssertSame(Simulation.Restore(parameters, middle), through, "where it was saved");
             Wires.Step(through, 17);
             for (int k = 0; k < 2; k++)
             {
                 Simulation restored = Simulation.Restore(parameters, middle);
                 Wires.Step(restored, 17);
-                AssertSameBits(restored, through, "from the middle");
+                SameRun.AssertSame(restored, through, "from the middle");
             }
             Simulation again = Simulation.Restore(parameters, start);
             Wires.Step(again, 40);
-            AssertSameBits(again, through, "from the start");
+            SameRun.AssertSame(again, through, "from the start");
         }
 
         /// <summary>Normalising once more would change the last bits of one frame in three, and with them the axis of a
@@ -181,7 +181,7 @@ namespace Guidewire.Core.Tests
             Wires.Step(run, 3);
             Simulation restored = Simulation.Restore(parameters, run.Save());
             restored.Step();
-            AssertSameBits(restored, run, "after its end");
+            SameRun.AssertSame(restored, run, "after its end");
             Assert.That(restored.Outcome, Is.EqualTo(Outcome.Finished));
         }
 

@@ -46,12 +46,7 @@ namespace Guidewire.Core.Tests
             parameters.Drive.RotationSpeed = 2.0;
             parameters.Scene.Catheters[0].Drive.InsertionSpeed = 0.07;
             parameters.Method.MaxSimulationSteps = 160;
-            Simulation run = Wires.RunAndRestore(parameters, 70, out Simulation other);
-            Assert.That(other.Coaxial()!.Positions, Is.EqualTo(run.Coaxial()!.Positions));
-            Assert.That(other.Coaxial()!.WireForce, Is.EqualTo(run.Coaxial()!.WireForce));
-            Assert.That(other.Coaxial()!.WireCommandedDisplacement,
-                Is.EqualTo(run.Coaxial()!.WireCommandedDisplacement));
-            Assert.That(other.Coaxial()!.Displacement, Is.EqualTo(run.Coaxial()!.Displacement));
+            Simulation run = Wires.RunAndRestore(parameters, 70);
             parameters.Scene.Catheters = Array.Empty<Catheter>();
             Assert.That(() => run.Continue(parameters), Throws.ArgumentException.With.Message.StartsWith("catheters"));
         }

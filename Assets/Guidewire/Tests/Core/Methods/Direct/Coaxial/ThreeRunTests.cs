@@ -172,9 +172,13 @@ namespace Guidewire.Core.Tests
         [Test]
         public void RunAgain_HasTheSameBits_AndASnapshotGoesOnToThem()
         {
-            Vector3d[] whole = End(-1);
-            Assert.That(End(-1), Is.EqualTo(whole));
-            Assert.That(End(17), Is.EqualTo(whole));
+            SimulationParameters parameters = CoaxialScenes.Three(Integrator.ImplicitEuler);
+            parameters.Method.MaxSimulationSteps = 40;
+            parameters.Drive.InsertionSpeed = 0.3;
+            parameters.Scene.Catheters[0].Drive.InsertionSpeed = 0.35;
+            parameters.Scene.Catheters[1].Drive.InsertionSpeed = -0.2;
+            parameters.Scene.Catheters[1].Drive.RotationSpeed = 4.0;
+            SameRun.AssertSame(Wires.RunAndRestore(parameters, 17), Wires.RunAndRestore(parameters, 25), "again");
         }
 
         private static void Steps(Simulation run, int count)
@@ -183,26 +187,6 @@ namespace Guidewire.Core.Tests
             {
                 run.Step();
             }
-        }
-
-        private static Vector3d[] End(int snapshotAt)
-        {
-            SimulationParameters parameters = CoaxialScenes.Three(Integrator.ImplicitEuler);
-            parameters.Method.MaxSimulationSteps = 40;
-            parameters.Drive.InsertionSpeed = 0.3;
-            parameters.Scene.Catheters[0].Drive.InsertionSpeed = 0.35;
-            parameters.Scene.Catheters[1].Drive.InsertionSpeed = -0.2;
-            parameters.Scene.Catheters[1].Drive.RotationSpeed = 4.0;
-            Simulation run = Simulation.Create(parameters);
-            for (int k = 0; k < 40; k++)
-            {
-                if (k == snapshotAt)
-                {
-                    run = Simulation.Restore(parameters, run.Save());
-                }
-                run.Step();
-            }
-            return (Vector3d[])run.State.Positions.Clone();
         }
 
         private static void SetDrive(DriveParameters drive, double[] times, double[] insertions) =>
