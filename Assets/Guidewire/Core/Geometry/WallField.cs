@@ -34,6 +34,8 @@ namespace Guidewire.Core
         private readonly int[] _near;
         private readonly double[] _squares;
         private readonly BeamField? _beam;
+        private double _grown;                     // part of the ramp that was over at the time below
+        private double _grownAt;                   // s
         private double _time = double.NaN;
 
         /// <summary>Where a wall is at time 0.</summary>
@@ -81,6 +83,7 @@ namespace Guidewire.Core
         {
             Array.Copy(other._since, _since, _since.Length);
             Array.Copy(other._phase, _phase, _phase.Length);
+            (_grown, _grownAt) = (other._grown, other._grownAt);
             _time = double.NaN;
             SetTime(time);
             _beam?.Follow(other._beam!);
@@ -130,7 +133,7 @@ namespace Guidewire.Core
                 return false;
             }
             _time = time;
-            double u = _motion.RampTime > 0.0 ? Math.Min(1.0, Math.Max(0.0, time / _motion.RampTime)) : 1.0;
+            double u = GrownAt(time, _motion.RampTime);
             double ramp = u * u * u * (10.0 - u * (15.0 - 6.0 * u));
             for (int m = 0; m < _values.Length; m++)
             {
@@ -235,8 +238,9 @@ namespace Guidewire.Core
             return Quaterniond.Normalize(sum);
         }
 
-        /// <summary>Writes or restores at which phases the cycles are. Where a reader has another period, its cycle
-        /// goes on from the phase that it has at this time.</summary>
+        /// <summary>Writes or restores at which phases the cycles are, and how far the ramp is. Where a reader has
+        /// another period or ramp, its cycle goes on from the phase that it has at this time, and its ramp from how far
+        /// it is.</summary>
         internal void Serialize(Snapshot snapshot, double time)
         {
             for (int m = 0; m < _values.Length; m++)
@@ -252,12 +256,23 @@ namespace Guidewire.Core
                     _phase[m] = period == own.Period ? phase : phase + (time - since) / period;
                 }
             }
+            double ramp = snapshot.Serialize(_motion.RampTime);
+            double grown = snapshot.Serialize(_grown);
+            double grownAt = snapshot.Serialize(_grownAt);
             if (!snapshot.IsWritten)
             {
+                (_grown, _grownAt) = (grown, grownAt);
+                if (ramp != _motion.RampTime)
+                {
+                    (_grown, _grownAt) = (GrownAt(time, ramp), time);
+                }
                 _time = double.NaN;
                 SetTime(time);
             }
         }
+
+        private double GrownAt(double time, double ramp) =>
+            ramp > 0.0 ? Math.Min(1.0, Math.Max(0.0, _grown + (time - _grownAt) / ramp)) : 1.0;
 
         private double PhaseAt(int cycle) =>
             _phase[cycle] + (_time - _since[cycle]) / _motion.Cycles[cycle].Period;

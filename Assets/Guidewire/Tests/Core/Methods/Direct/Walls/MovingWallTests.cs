@@ -232,6 +232,25 @@ namespace Guidewire.Core.Tests
                 Is.EqualTo(phase + parameters.Method.TimeStep / 0.4).Within(1e-12));
         }
 
+        /// <summary>The ramp, a quarter of the period, is over at 0.25 s. One of a slower heart would have begun
+        /// anew.</summary>
+        [Test]
+        public void AnotherHeartRate_LeavesTheWallWhereItIs([Values(12, 40)] int steps)
+        {
+            SimulationParameters parameters = Clamped(Vector3d.UnitX);
+            Simulation simulation = Simulation.Create(parameters);
+            Go(simulation, steps);
+            SimulationParameters slower = parameters.Copy();
+            slower.Scene.Walls = WallScenes.Tube(-10.0, 200.0, 5.0);
+            slower.Scene.Walls[0].Motion = Clamped(Vector3d.UnitX, 10.0).Scene.Walls[0].Motion;
+            Simulation changed = simulation.Continue(slower);
+            double x = simulation.FieldOf(0)!.Moved(Vector3d.Zero).X;
+            Assert.That(x, Is.GreaterThan(0.01));
+            Assert.That(changed.FieldOf(0)!.Moved(Vector3d.Zero).X, Is.EqualTo(x).Within(1e-12));
+            Go(changed, 1);
+            Assert.That(changed.FieldOf(0)!.Moved(Vector3d.Zero).X, Is.EqualTo(x).Within(0.05));
+        }
+
         private static SimulationParameters Clamped(Vector3d translation, double period = 1.0)
         {
             SimulationParameters parameters = WallScenes.Wire(30, 0.2e-3);
