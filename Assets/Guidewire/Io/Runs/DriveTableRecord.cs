@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Linq;
 using System.Text;
 using Guidewire.Core;
 
@@ -21,7 +22,7 @@ namespace Guidewire.Io
 
         private readonly double _timeStep;
         private readonly double _metres;
-        private readonly bool[] _meetsOthers;   // by hub: others may stop or carry it, and no force limit of its own
+        private readonly bool[] _meetsOthers;   // by hub: others or a sheath may stop or carry it, no force limit
         private readonly List<Row>[] _rows;
         private readonly double[] _carried;     // by hub, m: how far others have carried it
 
@@ -49,7 +50,7 @@ namespace Guidewire.Io
             for (int hub = 0; hub < _rows.Length; hub++)
             {
                 double limit = (hub == 0 ? parameters.Drive : catheters[hub - 1].Drive).HubForceLimit;
-                _meetsOthers[hub] = catheters.Count > 0 && !(limit > 0.0);
+                _meetsOthers[hub] = (catheters.Count > 0 || parameters.Scene.Sheath != null) && !(limit > 0.0);
                 _rows[hub] = new List<Row> { default };
             }
             Problem = parameters.Drive.Steering == null ? "no hand steers this run"
@@ -114,9 +115,14 @@ namespace Guidewire.Io
                 Row last = _rows[hub][^1];
                 double displacement = _metres * motion[2 * hub];
                 double end = last.Insertion + displacement;
-                double reached = _meetsOthers[hub] ? InsertionOf(simulation, hub) - _carried[hub] : end;
+                double reached = IsStoppedByOthers(hub, displacement, simulation)
+                    ? InsertionOf(simulation, hub) - _carried[hub] : end;
                 if (Math.Abs(reached - end) > Stopped && (reached - end) * displacement < 0.0)
                 {
+                    if (IsOpposed(motion, hub))
+                    {
+                        End("hubs that met were driven against each other: a hub that rests is carried along");
+                    }
                     end = reached;
                 }
                 else if (Math.Abs(reached - end) > Stopped)
@@ -124,6 +130,37 @@ namespace Guidewire.Io
                     _carried[hub] += reached - end;    // a hub that carries this one along does so again
                 }
                 _rows[hub].Add(new Row(end, last.Turn + motion[2 * hub + 1]));
+            }
+        }
+
+        // A hub that slips does so again; one wire alone may be driven on where it is withdrawn, not at the exit.
+        private bool IsStoppedByOthers(int hub, double displacement, Simulation simulation)
+        {
+            double slipped = hub == 0 ? simulation.Hub()!.SlippedFrom : simulation.Catheters()[hub - 1].SlippedFrom;
+            return _meetsOthers[hub] && double.IsNaN(slipped) && (_rows.Length > 1 || displacement > 0.0);
+        }
+
+        private static bool IsOpposed(double[] motion, int hub)
+        {
+            bool isOpposed = false;
+            for (int k = 0; k < motion.Length; k += 2)
+            {
+                isOpposed |= motion[k] * motion[2 * hub] < 0.0;
+            }
+            return isOpposed;
+        }
+
+        /// <summary>Sets the tables as drives of a steered run's parameters, and its end.</summary>
+        public void SetDrives(SimulationParameters parameters)
+        {
+            parameters.Method.MaxSimulationSteps = _rows[0].Count - 1;
+            for (int hub = 0; hub < _rows.Length; hub++)
+            {
+                DriveParameters drive = hub == 0 ? parameters.Drive : parameters.Scene.Catheters[hub - 1].Drive;
+                drive.Steering = null;
+                drive.InsertionSpeed = 0.0;
+                drive.DisplacementPerStep = 0.0;
+                drive.Table = TableOf(hub);
             }
         }
 
@@ -138,19 +175,30 @@ namespace Guidewire.Io
         public string ToCsv(int hub)
         {
             var text = new StringBuilder("time,insertion,rotation\n");
-            void Write(int step, double side)
+            foreach ((double time, Row row) in Moments(hub))
             {
-                Row row = _rows[hub][step];
-                text.Append(NumberText.Shortest(step * _timeStep + side * Constant * _timeStep)).Append(',')
-                    .Append(NumberText.Shortest(row.Insertion)).Append(',').Append(NumberText.Shortest(row.Turn))
-                    .Append('\n');
-            }
-            for (int step = 0; step < _rows[hub].Count; step++)
-            {
-                Write(step, step == 0 ? 0.0 : -1.0);
-                Write(step, 1.0);
+                text.Append(NumberText.Shortest(time)).Append(',').Append(NumberText.Shortest(row.Insertion))
+                    .Append(',').Append(NumberText.Shortest(row.Turn)).Append('\n');
             }
             return text.ToString();
+        }
+
+        private DriveTable TableOf(int hub)
+        {
+            (double Time, Row Row)[] moments = Moments(hub).ToArray();
+            double[] times = Array.ConvertAll(moments, moment => moment.Time);
+            return new DriveTable(new TimeTable(times, Array.ConvertAll(moments, moment => moment.Row.Insertion)),
+                new TimeTable(times, Array.ConvertAll(moments, moment => moment.Row.Turn)));
+        }
+
+        private IEnumerable<(double Time, Row Row)> Moments(int hub)
+        {
+            for (int step = 0; step < _rows[hub].Count; step++)
+            {
+                double before = step == 0 ? 0.0 : Constant;
+                yield return (step * _timeStep - before * _timeStep, _rows[hub][step]);
+                yield return (step * _timeStep + Constant * _timeStep, _rows[hub][step]);
+            }
         }
     }
 }

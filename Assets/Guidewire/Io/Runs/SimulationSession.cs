@@ -17,6 +17,8 @@ namespace Guidewire.Io
     {
         private const double Smoothing = 0.02;     // weight of the newest step in the step time shown
 
+        private const string NotTaken = "no run takes its tables: ";
+
         private readonly ParameterSource _from;
         private readonly List<KeyValuePair<string, JToken>> _overrides;
         private ParameterHandler _handler;
@@ -243,8 +245,28 @@ namespace Guidewire.Io
         public string DriveTable(int hub)
         {
             CheckHub(hub);
-            string problem = _steered == null ? "this session does not record how it is steered" : _steered.Problem;
-            return problem.Length == 0 ? _steered!.ToCsv(hub) : throw new ParameterException(problem);
+            string? problem = _steered == null ? "this session does not record how it is steered"
+                : _steered.Problem.Length > 0 ? _steered.Problem : FindProblemOfTables(_steered);
+            return problem == null ? _steered!.ToCsv(hub) : throw new ParameterException(problem);
+        }
+
+        // Why a run that the tables drive is refused, or begins with other bits than this one.
+        private string? FindProblemOfTables(DriveTableRecord steered)
+        {
+            SimulationParameters driven = ParameterHandler.Load(_from, _overrides, true).Values.Simulation;
+            steered.SetDrives(driven);
+            try
+            {
+                string? refusal = Simulation.FindProblemOfStart(driven);
+                double own = Simulation.Report()!.ContactDistance;
+                double other = refusal != null ? own : Simulation.Create(driven).Report()!.ContactDistance;
+                return refusal != null ? NotTaken + refusal : own.Equals(other) ? null : FormattableString.Invariant(
+                    $"a drive as fast as this has a contactDistance of {other:G4} m, and the hand {own:G4} m: state it");
+            }
+            catch (ArgumentException error)
+            {
+                return NotTaken + error.Message;
+            }
         }
 
         private void StepByMotion()

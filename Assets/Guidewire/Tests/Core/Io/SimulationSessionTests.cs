@@ -223,6 +223,60 @@ namespace Guidewire.Core.Tests
             Assert.Throws<ParameterException>(() => steered.DriveTable(1));
         }
 
+        private static readonly string[] InTube =
+        {
+            "solver=direct", "integrator=implicitEuler", "drive=displace", "proximalEnd=clamped", "timeStep=0.02",
+            "guidewireLength=60", "numberRodElements=12", "guidewireOffset=-50", "massDamping=20",
+            "vessel={\"shape\": \"tube\", \"knots\": [[0, 0, -100], [0, 0, 100]], \"radius\": 3}",
+        };
+
+        private SimulationSession Recorded(double push, int steps, params string[] more)
+        {
+            SimulationSession steered = Open("", true, InTube.Concat(more).ToArray());
+            steered.RecordSteering();
+            for (int k = 0; k < steps; k++)
+            {
+                steered.Step(push, 0.0);
+            }
+            return steered;
+        }
+
+        [Test]
+        public void DriveTable_OfAWireThatWasPushedToTheEndOfItsSheath_IsTaken()
+        {
+            string[] more = { "sheath={\"exit\": [0, 0, 0]}", "contactDistance=5e-5" };
+            using SimulationSession steered = Recorded(4.0, 15, more);
+            Assert.That(steered.Simulation.Hub()!.Insertion, Is.EqualTo(0.05).Within(1e-9), "of 0.06 m asked");
+            string table = Path.Combine(Folder, "table.csv");
+            File.WriteAllText(table, steered.DriveTable(0));
+            using SimulationSession driven = Open("", false,
+                InTube.Concat(more).Append("driveFile=" + table).ToArray());
+            for (int k = 0; k < 15; k++)
+            {
+                driven.Step(0.0, 0.0);
+            }
+            Assert.That(driven.Simulation.State.Positions, Is.EqualTo(steered.Simulation.State.Positions));
+        }
+
+        // A table's speed chooses the contactDistance; two hubs that press on each other stop where they meet.
+        [Test]
+        public void DriveTable_ThatWouldNotRepeatTheRun_IsRefusedWithTheReason()
+        {
+            using SimulationSession fast = Recorded(4.0, 2);
+            using SimulationSession slow = Recorded(0.4, 2);
+            Assert.That(() => fast.DriveTable(0), Throws.TypeOf<ParameterException>().With.Message.Contains(
+                "a drive as fast as this has a contactDistance of 0.0002 m, and the hand 5E-05 m"));
+            Assert.That(slow.DriveTable(0), Is.Not.Empty);
+            using SimulationSession met = Recorded(0.0, 0, "catheters=[{\"start\": 1, \"length\": 40, "
+                + "\"elements\": 8, \"wireRadius\": 1e-3, \"lumenRadius\": 6e-4}]");
+            for (int k = 0; k < 4; k++)
+            {
+                met.Step(new[] { 0.4, 0.0, -0.4, 0.0 });
+            }
+            Assert.That(() => met.DriveTable(0), Throws.TypeOf<ParameterException>().With.Message.Contains(
+                "hubs that met were driven against each other"));
+        }
+
         [Test]
         public void PushOfARecordedSession_IsNearWhatIsAsked_AndItsSumsAreExact(
             [Values(1e-3, 0.0254, 1.0, 1.0 / 3e3)] double metres)
