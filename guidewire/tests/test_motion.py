@@ -189,9 +189,13 @@ def test_what_is_wrong_is_said_in_one_line(live, scene, tmp_path, change, expect
 
 def test_a_field_that_folds_and_other_solvers_are_refused(live, scene, tmp_path):
     own = json.loads(scene.read_text())
-    rows = (scene.parent / "wave.csv").read_text().splitlines()
-    (scene.parent / "wave.csv").write_text("\n".join([rows[0]] + [
-        ",".join([*row.split(",")[:6], *(str(60.0 * float(one)) for one in row.split(",")[6:])]) for row in rows[1:]]))
+    own["vessel"]["motion"]["breathing"]["period"] = 12.0    # whole numbers of beats between the moments looked at
+    scene.write_text(json.dumps(own))
+    rows = [row.split(",") for row in (scene.parent / "wave.csv").read_text().splitlines()]
+    phase = rows[0].index("phase")
+    (scene.parent / "wave.csv").write_text("\n".join(",".join(row) for row in [rows[0], *(
+        [*row[:6], *(str((60.0 if float(row[phase]) > 0.7 else 0.0) * float(one)) for one in row[6:])]
+        for row in rows[1:])]))
     answer = live.run(Request("folds", scene, tmp_path / "run"))
     assert answer.exit_code == 2 and "folds the vessel" in answer.message
     own["vessel"]["motion"] = {"period": 1, "rigid": {"translation": [1, 0, 0]}}

@@ -68,19 +68,19 @@ namespace Guidewire.Core
                 return null;
             }
             var field = new WallField(this);
-            double longest = 0.0;
+            double period = 0.0;    // of the one cycle that moves the centreline; rigid ones fold nothing
             foreach (MotionCycle cycle in Cycles)
             {
-                longest = Math.Max(longest, cycle.Period);
+                period = cycle.IsRigid ? period : cycle.Period;
             }
             for (int k = 0; k < Phases; k++)
             {
-                field.SetTime(RampTime + longest * k / Phases);
+                field.SetTime(RampTime + period * k / Phases);
                 foreach (Vector3d point in points)
                 {
                     if (!field.TryMove(point, out Vector3d moved) || !(field.DeterminantAt(moved) > 0.0))
                     {
-                        return "the motion folds the vessel at " + point + ", " + (RampTime + longest * k / Phases)
+                        return "the motion folds the vessel at " + point + ", " + (RampTime + period * k / Phases)
                             .ToString("G3", System.Globalization.CultureInfo.InvariantCulture)
                             + " s after the start (its Jacobian is not positive)";
                     }
