@@ -35,15 +35,19 @@ class HeldInstruments:
 
     def hold(self, number: int) -> None:
         """Take another one; raises ValueError where there is none of this number."""
-        if isinstance(number, bool) or not isinstance(number, int) or not 0 <= number < len(self._instruments):
-            raise ValueError("no such instrument")
+        self._check(number)
         self.held, self.aim = number, None
 
     def key_of(self, number: int, name: str) -> str:
-        """The key that names an instrument; raises ValueError where it cannot have this name."""
+        """The key that names an instrument; raises ValueError where there is none or it cannot have this name."""
+        self._check(number)
         if name not in self._instruments[number]["choices"]:
             raise ValueError("no such instrument")
         return self._instruments[number]["key"]
+
+    def _check(self, number: int) -> None:
+        if isinstance(number, bool) or not isinstance(number, int) or not 0 <= number < len(self._instruments):
+            raise ValueError("no such instrument")
 
     def towards_aim(self, state: State, steps: int, most: float) -> float:
         """Turn in each of so many steps that brings the held hub to its aim, rad, of at most this size."""

@@ -397,7 +397,7 @@ class LiveRun:
                  (float(message.get("otherPush", 0.0)), float(message.get("otherTurn", 0.0)))]
         if not all(abs(one) <= 1.0 for hand in hands for one in hand):
             raise ValueError("steering takes push and turn from -1 to 1")
-        self._mark = int(message["mark"])
+        self._mark = int(float(message["mark"]))    # a frame has it as a number of 64 bits
         self._hands = hands
         if any(map(any, hands)):
             self._begin_at_last()
