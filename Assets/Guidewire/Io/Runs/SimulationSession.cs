@@ -27,6 +27,7 @@ namespace Guidewire.Io
         private RunFolder? _results;
         private bool _isNoted;
         private byte[] _start;
+        private bool _isStartFormer;           // parameters have changed since, perhaps those of the start
         private readonly CancellationToken _cancellation;
         private readonly bool _limitsHubs;
         private readonly double[] _motion;     // of the hubs, where one moves
@@ -348,9 +349,27 @@ namespace Guidewire.Io
         /// <summary>Back to the start. As <see cref="Restore"/>, not for a run that is logged.</summary>
         public void Reset()
         {
+            if (_isStartFormer)
+            {
+                _isStartFormer = false;
+                _start = StartOf(_handler.Values.Simulation) ?? _start;
+            }
             Simulation = Simulation.Restore(_handler.Values.Simulation, _start);
             Contrast?.Flow.Clear();
             _steered = _steered == null ? null : new DriveTableRecord(Parameters);
+        }
+
+        // Null where no wire starts so, as one outside a wall that was moved; the first step then says it.
+        private static byte[]? StartOf(SimulationParameters parameters)
+        {
+            try
+            {
+                return Simulation.Create(parameters).Save();
+            }
+            catch (ArgumentException)
+            {
+                return null;
+            }
         }
 
         /// <summary>Changes a parameter; the wire continues from its current state.</summary>
@@ -375,7 +394,8 @@ namespace Guidewire.Io
             handler.Values.Simulation.Drive.Steering = _steering;
             Simulation next = Simulation.Continue(handler.Values.Simulation);
             // A start of other instruments is another one.
-            _start = next.HasElementsOf(Simulation) ? _start : Simulation.Create(handler.Values.Simulation).Save();
+            _isStartFormer = next.HasElementsOf(Simulation);
+            _start = _isStartFormer ? _start : Simulation.Create(handler.Values.Simulation).Save();
             Simulation = next;
             Note("parameters changed by hand");
             _steered?.End((change ?? string.Join(", ", values.Select(value => value.Key)) + " was changed")

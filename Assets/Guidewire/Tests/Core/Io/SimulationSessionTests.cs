@@ -278,6 +278,16 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
+        public void AnotherStart_CountsFromTheNextReset()
+        {
+            using SimulationSession session = Recorded(0.4, 2);
+            session.Set("guidewireOffset", "-70");
+            Assert.That(session.Simulation.State.Positions[0].Z, Is.EqualTo(-49.2).Within(1e-6), "it goes on");
+            session.Reset();
+            Assert.That(session.Simulation.State.Positions[0].Z, Is.EqualTo(-70.0).Within(1e-9));
+        }
+
+        [Test]
         public void PushOfARecordedSession_IsNearWhatIsAsked_AndItsSumsAreExact(
             [Values(1e-3, 0.0254, 1.0, 1.0 / 3e3)] double metres)
         {
