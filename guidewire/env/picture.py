@@ -155,7 +155,7 @@ class PictureState:
 
     def last(self) -> np.ndarray:
         """Return the pictures as they were given last."""
-        return np.stack([plane for planes in self._frames for plane in planes])
+        return np.stack(self.frames)
 
     @property
     def taken(self) -> tuple[int, int]:

@@ -239,13 +239,17 @@ def _task(name: str, entry: Mapping[str, Any], file: Path) -> Task:
     if not isinstance(catheters, list) or not all(isinstance(one, dict) for one in catheters):
         raise Error(f"{file}: task {name}: overrides: catheters = {json.dumps(catheters)} is not allowed: needs a list "
                     "of objects")
-    if entry.get("tier", "dev") not in ("dev", "train", "test"):
-        raise Error(f"{file}: task {name}: tier = {json.dumps(entry['tier'])} is not allowed: needs dev, train or test")
-    if entry.get("baseline", "") not in BASELINES:
-        raise Error(f"{file}: task {name}: baseline = {json.dumps(entry['baseline'])} is not allowed: needs one of "
-                    f"{', '.join(filter(None, BASELINES))}")
-    if not isinstance(entry.get("random", {}), dict):
-        raise Error(f"{file}: task {name}: random = {json.dumps(entry['random'])} is not allowed: needs an object")
+    turns = entry.get("tipTurns", 1)
+    for key, is_allowed, needs in (
+            ("tier", entry.get("tier", "dev") in ("dev", "train", "test"), "dev, train or test"),
+            ("baseline", entry.get("baseline", "") in BASELINES, f"one of {', '.join(filter(None, BASELINES))}"),
+            ("random", isinstance(entry.get("random", {}), dict), "an object"),
+            ("tipTurns", type(turns) is int and 1 <= turns <= 10**9, "a whole number from 1"),
+            ("frictions", entry.get("frictions") != [], "numbers, or leave it out"),
+            *((key, isinstance(entry.get(key, []), list), "a list")
+              for key in ("anatomies", "targets", "instruments", "frictions"))):
+        if not is_allowed:
+            raise Error(f"{file}: task {name}: {key} = {json.dumps(entry[key])} is not allowed: needs {needs}")
     for key, distribution in entry.get("random", {}).items():
         try:
             if key in _BY_LISTS:
@@ -258,21 +262,13 @@ def _task(name: str, entry: Mapping[str, Any], file: Path) -> Task:
                             f"{least:g} to {most:g}")
         except Error as error:
             raise Error(f"{file}: task {name}: {error}") from error
-    for key in ("anatomies", "targets", "instruments", "frictions"):
-        if not isinstance(entry.get(key, []), list):
-            raise Error(f"{file}: task {name}: {key} = {json.dumps(entry[key])} is not allowed: needs a list")
     for key, least, most in (("time", 1e-6, 1e9), ("tolerance", 1e-9, 1e9), ("hold", 0.0, 1e9), ("speed", 1e-9, 1e9),
                              ("rotation", 1e-9, 1e9), ("insertion", *LIMITS["insertion"])):
         given = [entry[key]] if key in entry else []
         for one in given[0] if given and key in _EACH and isinstance(given[0], list) else given:
             _number({key: one}, key, least, most, file)
-    turns = entry.get("tipTurns", 1)
-    if type(turns) is not int or not 1 <= turns <= 10**9:
-        raise Error(f"{file}: task {name}: tipTurns = {json.dumps(turns)} is not allowed: needs a whole number from 1")
     for one in entry.get("instruments", []):
         check_instruments(f"{file}: task {name}: instruments:", one)
-    if entry.get("frictions") == []:
-        raise Error(f"{file}: task {name}: frictions = [] is not allowed: needs numbers, or leave it out")
     for one in entry.get("frictions", []):
         _number({"frictions": one}, "frictions", *LIMITS["friction"], file)
     for one in of_each(entry.get("follow"), 1):
