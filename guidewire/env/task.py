@@ -343,7 +343,9 @@ def _beside(file: Path, name: str) -> str:
 def _whole(table: Mapping[str, Any], folder: Path) -> dict[str, Any]:
     """A vessel, or its motion, with whole names of its files."""
     return {key: _whole(value, folder) if key in ("motion", "breathing") and isinstance(value, Mapping)
-            else str((folder / value).resolve()) if key in _FILES and isinstance(value, str) else value
+            else str((folder / value).resolve()) if key in _FILES and isinstance(value, str)
+            else [str((folder / str(one)).resolve()) for one in value] if key == "frames" and isinstance(value, list)
+            else value
             for key, value in table.items()}
 
 
