@@ -381,18 +381,11 @@ class GivenVessel:
     def _turned(self, points: np.ndarray, near: cKDTree, one: CubicSpline, other: CubicSpline) -> np.ndarray:
         at = self._fine[near.query(points)[1]]
         before, after = _units(self._rest(at, 1) + one(at, 1)), _units(self._rest(at, 1) + other(at, 1))
-        return self._rest(at) + other(at) + _turned(before, after, points - self._rest(at) - one(at))
+        return self._rest(at) + other(at) + _shortest(before, after).apply(points - self._rest(at) - one(at))
 
 
 def _units(vectors: np.ndarray) -> np.ndarray:
     return vectors / np.linalg.norm(vectors, axis=1)[:, None]
-
-
-def _turned(before: np.ndarray, after: np.ndarray, arm: np.ndarray) -> np.ndarray:
-    """Vectors (k, 3) after the shortest turns that take unit vectors to others."""
-    axis = np.cross(before, after)
-    across = np.cross(axis, arm)
-    return arm + across + np.cross(axis, across) / (1.0 + np.sum(before * after, axis=1))[:, None]
 
 
 def motion_of(parameters: Mapping[str, Any]) -> VesselMotion | None:

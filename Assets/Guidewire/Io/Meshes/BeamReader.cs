@@ -50,16 +50,16 @@ namespace Guidewire.Io
             {
                 throw fields.Wrong(idle, "a youngsModulus beside it, and no bendingStiffness");
             }
-            double modulus = fields.Has(Modulus) ? Positive(fields, Modulus, "Pa") : 0.0;
-            double inner = fields.Has(Modulus) ? Positive(fields, Radius, "m") : 0.0;
-            double outer = fields.Has(Modulus) ? inner + Positive(fields, Thickness, "m") : 0.0;
+            double modulus = fields.Has(Modulus) ? fields.Positive(Modulus, "Pa") : 0.0;
+            double inner = fields.Has(Modulus) ? fields.Positive(Radius, "m") : 0.0;
+            double outer = fields.Has(Modulus) ? inner + fields.Positive(Thickness, "m") : 0.0;
             double bending = fields.Has(Modulus)
                 ? 0.25 * Math.PI * modulus * (Math.Pow(outer, 4.0) - Math.Pow(inner, 4.0))
-                : Positive(fields, Bending, "N m^2");
-            double axial = fields.Has(Axial) || !fields.Has(Modulus) ? Positive(fields, Axial, "N")
+                : fields.Positive(Bending, "N m^2");
+            double axial = fields.Has(Axial) || !fields.Has(Modulus) ? fields.Positive(Axial, "N")
                 : Math.PI * modulus * (outer * outer - inner * inner);
-            double foundation = Positive(fields, Foundation, "Pa");
-            double spacing = fields.Has(Spacing) ? Positive(fields, Spacing, "m")
+            double foundation = fields.Positive(Foundation, "Pa");
+            double spacing = fields.Has(Spacing) ? fields.Positive(Spacing, "m")
                 : OfLength * Math.Pow(4.0 * bending / foundation, 0.25);
             Vector3d[] centreline = Centreline(fields, values, wall, out string start, out string end);
             double metres = values.Simulation.Scene.MetresPerUnit;
@@ -124,12 +124,6 @@ namespace Guidewire.Io
                 }
             }
             return (holdsAll || held.Contains(start), holdsAll || held.Contains(end));
-        }
-
-        private static double Positive(JsonFields fields, string key, string unit)
-        {
-            double value = fields.Number(key, 0.0);
-            return value > 0.0 ? value : throw fields.Wrong(key, "a number > 0 (" + unit + ")");
         }
     }
 }

@@ -95,6 +95,13 @@ namespace Guidewire.Io
                 ? number : throw Wrong(name, OneNumber);
         }
 
+        /// <summary>A number above 0, or what counts where it is missing (0: it may not be).</summary>
+        public double Positive(string name, string unit, double missing = 0.0)
+        {
+            double value = Number(name, missing);
+            return value > 0.0 ? value : throw Wrong(name, "a number > 0 (" + unit + ")");
+        }
+
         /// <summary>A vector, or what counts where it is missing (null: it may not be).</summary>
         public Vector3d Vector(string name, Vector3d? missing)
         {

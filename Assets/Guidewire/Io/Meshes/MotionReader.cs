@@ -54,7 +54,7 @@ namespace Guidewire.Io
             JsonFields own = fields.Object(Key);
             own.Allow(OfCycle.Concat(new[] { Spacing, RampTime, Breathing }).ToArray());
             double units = 1.0 / values.Simulation.Scene.MetresPerUnit;
-            double spacing = units * Positive(own, Spacing, DefaultSpacing, "m");
+            double spacing = units * own.Positive(Spacing, "m", DefaultSpacing);
             var branches = new List<Vector3d[]>();
             var cycles = new List<MotionCycle>();
             JsonFields? breathing = own.Has(Breathing) ? own.Object(Breathing) : null;
@@ -126,8 +126,8 @@ namespace Guidewire.Io
                 throw fields.Wrong(fields.Has(Period) ? HeartRate : Period, fields.Has(Period)
                     ? "no period beside it" : "a number > 0 (s), or a heartRate in its place");
             }
-            double period = fields.Has(Period) ? Positive(fields, Period, 0.0, "s")
-                : 60.0 / Positive(fields, HeartRate, 0.0, "beats per minute");
+            double period = fields.Has(Period) ? fields.Positive(Period, "s")
+                : 60.0 / fields.Positive(HeartRate, "beats per minute");
             double phase = fields.Number(Phase, 0.0);
             if (!(phase >= 0.0 && phase <= 1.0))
             {
@@ -354,12 +354,6 @@ namespace Guidewire.Io
                 }
             }
             return own.Length >= 3 ? own : throw fields.Wrong(key, "a table of at least three phases");
-        }
-
-        private static double Positive(JsonFields fields, string key, double missing, string unit)
-        {
-            double value = fields.Number(key, missing);
-            return value > 0.0 ? value : throw fields.Wrong(key, "a number > 0 (" + unit + ")");
         }
     }
 

@@ -38,7 +38,7 @@ namespace Guidewire.Io
                 return other == null ? null : throw fields.Wrong(other, "a wallStiffness or a modulus beside it");
             }
             double limit = fields.Number(Limit, 0.0);
-            double tip = fields.Has(TipLength) ? Positive(fields, TipLength, "m") : WallSoftness.DefaultTipLength;
+            double tip = fields.Has(TipLength) ? fields.Positive(TipLength, "m") : WallSoftness.DefaultTipLength;
             double relaxation = fields.Number(Relaxation, 0.0);
             if (!(relaxation >= 0.0))
             {
@@ -104,24 +104,18 @@ namespace Guidewire.Io
             {
                 return ofWall == null ? (double?)null : OfTissue(fields);
             }
-            return ofWall == null ? Positive(fields, Stiffness, "Pa")
+            return ofWall == null ? fields.Positive(Stiffness, "Pa")
                 : throw fields.Wrong(ofWall, "no wallStiffness beside it");
         }
 
         private static double OfTissue(JsonFields fields)
         {
-            double modulus = Positive(fields, Modulus, "Pa");
-            double thickness = Positive(fields, Thickness, "m");
-            double radius = Positive(fields, Radius, "m");
-            double surrounding = Positive(fields, Surrounding, "Pa");
+            double modulus = fields.Positive(Modulus, "Pa");
+            double thickness = fields.Positive(Thickness, "m");
+            double radius = fields.Positive(Radius, "m");
+            double surrounding = fields.Positive(Surrounding, "Pa");
             return thickness <= Thin * radius ? VesselWall.Stiffness(modulus, thickness, radius, surrounding)
                 : throw fields.Wrong(Thickness, "half of the lumenRadius or less: the formula is that of a thin wall");
-        }
-
-        private static double Positive(JsonFields fields, string key, string unit)
-        {
-            double value = fields.Has(key) ? fields.Number(key, null) : 0.0;
-            return value > 0.0 ? value : throw fields.Wrong(key, "a number > 0 (" + unit + ")");
         }
     }
 }

@@ -166,11 +166,7 @@ namespace Guidewire.Io
             {
                 throw fields.Refused("scale needs three factors other than 0");
             }
-            double metresPerUnit = fields.Number("metresPerUnit", scene.Simulation.Scene.MetresPerUnit);
-            if (!(metresPerUnit > 0.0))
-            {
-                throw fields.Wrong("metresPerUnit", "a number > 0 (m)");
-            }
+            double metresPerUnit = fields.Positive("metresPerUnit", "m", scene.Simulation.Scene.MetresPerUnit);
             string file = Path.GetFileName(fields.Text("file"));
             if (!from.Files.TryGetValue(file, out byte[]? held))
             {
