@@ -8,51 +8,36 @@ namespace Guidewire.Core.Tests
     public sealed class MaterialSnapshotTests
     {
         private const int N = 8;
-        private const int After = 20;  // steps
         private const double RampSteps = 40.0;
         private const double Displacement = -2.0;  // mm
 
-        private static readonly int[] Interruptions = { 1, 2, 7, 33 };
-
-        private static IEnumerable<TestCaseData> Motions()
+        /// <summary>Motions that are interrupted in <see cref="ContinueTests"/>.</summary>
+        internal static IEnumerable<(string Name, SimulationParameters Parameters)> Motions()
         {
-            foreach (Integrator scheme in new[] { Integrator.Trbdf2, Integrator.Esdirk3, Integrator.Esdirk4 })
+            foreach (string scene in new[] { "cut steps", "damped cut steps", "damped ramp", "twist and push",
+                "release", "free", "sliding", "couple" })
             {
-                yield return new TestCaseData(Solver.Direct, scheme, "cut steps");
-                yield return new TestCaseData(Solver.Direct, scheme, "damped cut steps");
-            }
-            foreach (string scene in new[] { "ramp", "damped ramp", "twist and push", "release", "free", "sliding",
-                "couple" })
-            {
-                foreach (Integrator scheme in new[] { Integrator.ImplicitEuler, Integrator.Bdf2, Integrator.Trbdf2,
-                    Integrator.Esdirk3, Integrator.Esdirk4 })
+                bool isCut = scene.EndsWith("cut steps", StringComparison.Ordinal);
+                foreach (Integrator scheme in MethodTable.Of(Solver.Direct).Integrators)
                 {
-                    yield return new TestCaseData(Solver.Direct, scheme, scene);
+                    if (!isCut || scheme == Integrator.Trbdf2 || scheme == Integrator.Esdirk3
+                        || scheme == Integrator.Esdirk4)
+                    {
+                        yield return Motion(Solver.Direct, scheme, scene);
+                    }
                 }
-                yield return new TestCaseData(Solver.Explicit, Integrator.Verlet, scene);
-                if (scene != "couple")  // xpbd takes none
+                if (!isCut && scene != "sliding")    // what direct alone does
                 {
-                    yield return new TestCaseData(Solver.Xpbd, Integrator.Verlet, scene);
+                    yield return Motion(Solver.Explicit, Integrator.Verlet, scene);
+                }
+                if (!isCut && scene != "sliding" && scene != "couple")    // xpbd takes none
+                {
+                    yield return Motion(Solver.Xpbd, Integrator.Verlet, scene);
                 }
             }
-        }
 
-        [TestCaseSource(nameof(Motions))]
-        public void InterruptedMotion_GoesOnWithTheSameBits(Solver solver, Integrator scheme, string scene)
-        {
-            foreach (int steps in Interruptions)
-            {
-                var through = new Motion(Parameters(solver, scheme, scene));
-                through.Advance(steps);
-                var next = new Motion(Parameters(solver, scheme, scene));
-                next.GoOnFrom(through);
-                for (int k = 0; k < After; k++)
-                {
-                    through.Advance(1);
-                    next.Advance(1);
-                    AssertSameBits(next, through, "step " + (k + 1) + " after " + steps);
-                }
-            }
+            static (string, SimulationParameters) Motion(Solver solver, Integrator scheme, string scene) =>
+                (solver + ", " + scheme + ", " + scene, Parameters(solver, scheme, scene));
         }
 
         [TestCase(Solver.Direct, Integrator.Esdirk3)]
@@ -203,6 +188,7 @@ namespace Guidewire.Core.Tests
                     parameters.Method.TimeStepError = 1e-5;
                     break;
                 case "free":
+                    parameters.Scene.ProximalEnd = ProximalEnd.Free;
                     parameters.Drive.Kind = Drive.Force;
                     parameters.Drive.ExternalForce = new Vector3d(0.0, 0.01, 0.0);
                     break;
@@ -232,37 +218,6 @@ namespace Guidewire.Core.Tests
             reader.Serialize(ref time);
             shape.Serialize(reader);
             Assert.That(RotationVector.Log(shape.ProximalFrame).Z, Is.EqualTo(turn).Within(1e-12));
-        }
-
-        private static string WarningsOf(Motion motion)
-        {
-            var warnings = new List<RunWarning>();
-            motion.Stepper.AddWarnings(warnings);
-            return string.Join("\n", warnings);
-        }
-
-        private static void AssertSameBits(Motion actual, Motion expected, string what)
-        {
-            Assert.That(actual.State.Positions, Is.EqualTo(expected.State.Positions), what);
-            Assert.That(actual.State.PreviousPositions, Is.EqualTo(expected.State.PreviousPositions), what);
-            Assert.That(actual.State.Velocities, Is.EqualTo(expected.State.Velocities), what);
-            Assert.That(actual.State.Orientations, Is.EqualTo(expected.State.Orientations), what);
-            Assert.That(actual.State.AngularVelocities, Is.EqualTo(expected.State.AngularVelocities), what);
-            Assert.That(actual.Stepper.PredictionError, Is.EqualTo(expected.Stepper.PredictionError), what);
-            Assert.That(WarningsOf(actual), Is.EqualTo(WarningsOf(expected)), what);
-            Assert.That(actual.Stepper.Failure, Is.Null, what);
-            Assert.That(actual.Stepper.Divergence, Is.Null, what);
-            Assert.That(actual.Stepper.Contacts?.Reaction, Is.EqualTo(expected.Stepper.Contacts?.Reaction), what);
-            SolverReport a = actual.Stepper.Report()!;
-            SolverReport b = expected.Stepper.Report()!;
-            Assert.That(a.Factorisations, Is.EqualTo(b.Factorisations), what);
-            Assert.That(a.KeptSolutions, Is.EqualTo(b.KeptSolutions), what);
-            Assert.That(a.EquilibriumResidual, Is.EqualTo(b.EquilibriumResidual), what);
-            Assert.That(a.LargestError, Is.EqualTo(b.LargestError), what);
-            Assert.That(a.TimeStepError, Is.EqualTo(b.TimeStepError), what);
-            Assert.That(a.InnerSteps, Is.EqualTo(b.InnerSteps), what);
-            Assert.That(a.ProximalForce, Is.EqualTo(b.ProximalForce), what);
-            Assert.That(a.Energy, Is.EqualTo(b.Energy), what);
         }
 
         /// <summary>A stepper and its wire.</summary>
