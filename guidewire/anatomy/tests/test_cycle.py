@@ -60,7 +60,7 @@ def test_surfaces_without_common_vertices_give_the_motion_that_moved_them(tmp_pa
 
 
 def test_phases_of_other_vessels_are_refused(tmp_path: Path) -> None:
-    for k, length in enumerate((40.0, 20.0, 40.0)):
+    for k, length in enumerate((24.0, 12.0, 24.0)):
         write_stl(tmp_path / f"p{k}.stl", tube(3.0, length, AXIS, 12, 10))
     with pytest.raises(PreparationError, match="fewer than two ends in common"):
         anatomy(tmp_path, 3)
