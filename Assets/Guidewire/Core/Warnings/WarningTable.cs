@@ -137,6 +137,10 @@ namespace Guidewire.Core
             "*file*: *key* is no longer a key and has no effect: *what counts instead*",
             "remove it; the run is the same");
 
+        /// <summary>A key whose value nothing reads.</summary>
+        public static readonly WarningKind IdleKey = AtStart("idleKey",
+            "*file*: *key* has no effect without *what it needs*", "add what it needs, or remove it");
+
         /// <summary>A pbd stiffness for stretching that is unstable.</summary>
         public static readonly WarningKind StretchStiffness = AtStart("stretchStiffness",
             "stretchStiffness = *k* is at or beyond 2, where transversal motion becomes unstable",

@@ -393,6 +393,7 @@ namespace Guidewire.Io
             SimulationParameters simulation = Values.Simulation;
             double l = simulation.Scene.GuidewireLength / simulation.Scene.NumberRodElements;
             WarnOfSections(simulation);
+            WarnOfIdleKeys(simulation);
             if (MethodTable.Of(Method).TakesMaterial && (_given.Has("youngsModulus") || _given.Has("shearModulus"))
                 && Values.BendingStiffness == null && Values.TorsionalStiffness == null)
             {
@@ -492,6 +493,38 @@ namespace Guidewire.Io
             if (ratio > 0.5 + PoissonRounding)    // -1 is below all that positive moduli make
             {
                 AddWarning(WarningTable.PoissonRatio, where, ratio, young, shear);
+            }
+        }
+
+        // Values that a scene states and no part of the run reads.
+        private void WarnOfIdleKeys(SimulationParameters own)
+        {
+            SceneParameters scene = own.Scene;
+            bool isFree = scene.DistalEnd == DistalEnd.Free;
+            MaterialParameters wire = own.Material;
+            bool hasLaw = wire.Material != CoreMaterial.Linear || wire.YieldStress.HasValue || wire.Plateau != null
+                || wire.Sections.Any(section => section.Material > CoreMaterial.Linear || section.YieldStress.HasValue
+                    || section.Plateau != null);
+            foreach ((string key, bool isIdle, string needed) in new[]
+            {
+                ("externalForce", own.Drive.Kind != Drive.Force && own.Drive.ExternalForce.Length > 0.0,
+                    "drive \"force\""),
+                ("distalRotation", isFree && scene.DistalRotation != 0.0, "distalEnd \"clamped\" or \"sliding\""),
+                ("distalDisplacement", isFree && scene.DistalDisplacement != 0.0, "distalEnd \"clamped\""),
+                ("axialForce", scene.DistalEnd != DistalEnd.Sliding && scene.AxialForce != 0.0,
+                    "distalEnd \"sliding\""),
+                ("startTurns", scene.StartShape == StartShape.Straight && scene.StartTurns != 1.0,
+                    "startShape \"helix\""),
+                ("selfFriction", own.Contact.SelfContact == false && own.Contact.SelfFriction > 0.0,
+                    "selfContact"),
+                ("hardening", wire.Hardening.HasValue && !hasLaw, "material, plateau or yieldStress"),
+                ("fibres", wire.Fibres > 0 && !hasLaw, "material, plateau or yieldStress"),
+            })
+            {
+                if (isIdle && ParameterTable.Find(key)!.IsTakenBy(Method) && _given.TryGet(key, out var given))
+                {
+                    AddWarning(WarningTable.IdleKey, given.Source, key, needed);
+                }
             }
         }
 

@@ -61,6 +61,7 @@ namespace Guidewire.Core.Tests
             ["olderName"] = Tube + ", 'displacement': 0, 'elementContact': 'seed', 'maxSimulationSteps': 1",
             ["elementLength"] = Pbd + ", 'rodElementLength': 3",
             ["formerKey"] = Driven + ", 'frictionSpeed': 5, 'maxSimulationSteps': 1",
+            ["idleKey"] = Wire + ", 'maxSimulationSteps': 1, 'axialForce': 0.1",
             ["stretchStiffness"] = Pbd + ", 'stretchStiffness': 2.5",
             ["bendStiffness"] = Pbd + ", 'bendStiffness': 50",
             ["sectionBeyond"] = Wire + ", 'maxSimulationSteps': 1, 'numberRodElements': 10, 'wireSections': [{'from':"
