@@ -176,12 +176,15 @@ def test_frames_that_do_not_fit_are_refused(live, beating, tmp_path, change, exp
     ({"rigid": {"translation": [1, 0, 0]}}, "one of rigid, centreline and frames"),
     ({"rampTime": -1}, "a number >= 0 (s)"),
     ({"centreline": "none.csv"}, "none.csv"),
+    ({"centreline": "turned.csv"}, "a table whose scale is > 0 everywhere"),
     ({"beats": 3}, "unknown key 'vessel.motion.beats'"),
     ({"breathing": {"period": 1, "centreline": "wave.csv"}}, "only one cycle may move the centreline"),
 ])
 def test_what_is_wrong_is_said_in_one_line(live, scene, tmp_path, change, expected):
     own = json.loads(scene.read_text())
     own["vessel"]["motion"].update(change)
+    rows = [f"{s},{p},0,0,{s},{0.5 - p}" for s in (0.0, 0.1) for p in (0.0, 0.25, 0.75)]
+    (scene.parent / "turned.csv").write_text("\n".join(["station,phase,x,y,z,scale", *rows]))
     scene.write_text(json.dumps(own))
     answer = live.run(Request("wrong", scene, tmp_path / "run"))
     assert answer.exit_code == 2 and expected in answer.message and "\n" not in answer.message.strip()
@@ -189,7 +192,7 @@ def test_what_is_wrong_is_said_in_one_line(live, scene, tmp_path, change, expect
 
 def test_a_field_that_folds_and_other_solvers_are_refused(live, scene, tmp_path):
     own = json.loads(scene.read_text())
-    own["vessel"]["motion"]["breathing"]["period"] = 12.0    # whole numbers of beats between the moments looked at
+    own["vessel"]["motion"]["breathing"]["period"] = 12.0    # a whole number of beats
     scene.write_text(json.dumps(own))
     rows = [row.split(",") for row in (scene.parent / "wave.csv").read_text().splitlines()]
     phase = rows[0].index("phase")

@@ -186,6 +186,10 @@ namespace Guidewire.Io
                 new TableColumn("dy", Dimension.Length, 0.0), new TableColumn("dz", Dimension.Length, 0.0),
                 new TableColumn("rx", Dimension.Angle, 0.0), new TableColumn("ry", Dimension.Angle, 0.0),
                 new TableColumn("rz", Dimension.Angle, 0.0), new TableColumn("scale", Dimension.Number, 1.0));
+            if (table[12].Any(scale => !(scale > 0.0)))
+            {
+                throw fields.Wrong(Centreline, "a table whose scale is > 0 everywhere");
+            }
             double[] phases = Phases(fields, Centreline, table[2].Distinct().OrderBy(own => own).ToList());
             Placement placement = PlacementOf(values);
             if (!placement.IsUniform && table.Skip(9).Take(3).Any(column => column.Any(turn => turn != 0.0)))
