@@ -16,8 +16,11 @@ namespace Guidewire.Io
     {
         private const double Grain = 1.0 / (1L << 48);      // m
         private const double TurnGrain = 1.0 / (1L << 40);  // rad
+        private const double Most = 16.0;       // m, up to which sums of grains are exact
+        private const double MostTurn = 8192.0; // rad
         private const double Constant = 1e-6;   // of a step: so long before and after its end a table stands still
         private const double Stopped = 1e-9;    // m: a hub that went less far by more than that came to another one
+        private const string TooFar = "a hub was driven by more than 16 m or 8192 rad, where a table rounds";
         private const int Tries = 200;          // displacements beside the wanted one; about every second is met
 
         private readonly double _timeStep;
@@ -72,6 +75,11 @@ namespace Guidewire.Io
         {
             for (int k = 0; k < motion.Length && Problem.Length == 0; k += 2)
             {
+                if (!IsExact(_metres * motion[k], motion[k + 1]))
+                {
+                    End(TooFar);
+                    return;
+                }
                 motion[k] = ExactPush(motion[k], _metres);
                 motion[k + 1] = Math.Round(motion[k + 1] / TurnGrain) * TurnGrain;
             }
@@ -130,8 +138,14 @@ namespace Guidewire.Io
                     _carried[hub] += reached - end;    // a hub that carries this one along does so again
                 }
                 _rows[hub].Add(new Row(end, last.Turn + motion[2 * hub + 1]));
+                if (!IsExact(end, last.Turn + motion[2 * hub + 1]))
+                {
+                    End(TooFar);
+                }
             }
         }
+
+        private static bool IsExact(double way, double turn) => Math.Abs(way) < Most && Math.Abs(turn) < MostTurn;
 
         // A hub that slips does so again; one wire alone may be driven on where it is withdrawn, not at the exit.
         private bool IsStoppedByOthers(int hub, double displacement, Simulation simulation)

@@ -262,7 +262,7 @@ namespace Guidewire.Io
                 double own = Simulation.Report()!.ContactDistance;
                 double other = refusal != null ? own : Simulation.Create(driven).Report()!.ContactDistance;
                 return refusal != null ? NotTaken + refusal : own.Equals(other) ? null : FormattableString.Invariant(
-                    $"a drive as fast as this has a contactDistance of {other:G4} m, and the hand {own:G4} m: state it");
+                    $"a drive as fast has a contactDistance of {other:G4} m, and the hand {own:G4} m: state it");
             }
             catch (ArgumentException error)
             {

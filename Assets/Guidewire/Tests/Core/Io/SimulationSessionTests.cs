@@ -265,7 +265,7 @@ namespace Guidewire.Core.Tests
             using SimulationSession fast = Recorded(4.0, 2);
             using SimulationSession slow = Recorded(0.4, 2);
             Assert.That(() => fast.DriveTable(0), Throws.TypeOf<ParameterException>().With.Message.Contains(
-                "a drive as fast as this has a contactDistance of 0.0002 m, and the hand 5E-05 m"));
+                "a drive as fast has a contactDistance of 0.0002 m, and the hand 5E-05 m"));
             Assert.That(slow.DriveTable(0), Is.Not.Empty);
             using SimulationSession met = Recorded(0.0, 0, "catheters=[{\"start\": 1, \"length\": 40, "
                 + "\"elements\": 8, \"wireRadius\": 1e-3, \"lumenRadius\": 6e-4}]");
@@ -275,6 +275,21 @@ namespace Guidewire.Core.Tests
             }
             Assert.That(() => met.DriveTable(0), Throws.TypeOf<ParameterException>().With.Message.Contains(
                 "hubs that met were driven against each other"));
+        }
+
+        [TestCase(1e300, 0.0)]
+        [TestCase(0.0, 1e300)]
+        [TestCase(0.0, 5000.0)]
+        public void DriveTable_OfWaysBeyondItsExactSums_IsRefused(double push, double turn)
+        {
+            using SimulationSession steered = Recorded(0.0, 1, "contactDistance=5e-5");
+            steered.Step(push, turn);
+            if (steered.Simulation.Outcome == Outcome.Running)
+            {
+                steered.Step(push, turn);
+            }
+            Assert.That(() => steered.DriveTable(0), Throws.TypeOf<ParameterException>().With.Message.Contains(
+                "more than 16 m or 8192 rad"));
         }
 
         [Test]
