@@ -164,7 +164,7 @@ class State:
     step, time : steps done, and in-game time in s.
     outcome, reason, reliable : how the run ended, why, and whether its result can be trusted, as in summary.json; None,
         "" and None while it goes on. Steps after the end change nothing.
-    prediction_error : Delta_p of the last step, units; 0 with a material.
+    prediction_error : Delta_p of the last step, units; with a material from free flight.
     positions, velocities : (n+1, 3), units and units/s.
     orientations : (n, 4), quaternions x, y, z, w of the rod elements.
     angular_velocities : (n, 3), rad/s, in each element's own frame.

@@ -22,7 +22,7 @@ namespace Guidewire.Io
             Number("elapsedMilliseconds", "ms", "wall time since the start of the run", QuantitySwitch.Always,
                 m => m.Of(m.Elapsed)).Typed(QuantityType.Exact).Json("elapsedMilliseconds"),
             Number("delta", "units",
-                "how far the step moved the last sphere from where it was predicted; 0 with a material",
+                "how far the step moved the last sphere from where it was predicted, with a material by free flight",
                 QuantitySwitch.Always,
                 m => m.Of(m.Simulation.PredictionError)).Typed(QuantityType.Exact).Json("delta"),
             Number("firstSphere", "1", "index of the first sphere that the entry has", QuantitySwitch.Always,
