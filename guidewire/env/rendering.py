@@ -22,7 +22,7 @@ class Scenery:
     Parameters
     ----------
     session : whose walls.
-    route : to the target, in a vessel that moves as it says.
+    route : to the target, in a vessel that is where it says.
     """
 
     def __init__(self, session: Session, route: Route) -> None:
@@ -33,9 +33,9 @@ class Scenery:
         cosine, sine = np.cos(_TILT), np.sin(_TILT)
         # To the right, upwards and towards the eye; wires enter along +z.
         self._axes = np.array([[0.0, 1.0, 0.0], [-sine, 0.0, cosine], [cosine, 0.0, sine]])
-        self._route, most = route, _POINTS if route.motion is None else _MOVING
+        self._route, most = route, _MOVING if route.is_moving else _POINTS
         self._wall = points[::max(1, len(points) // most)]
-        self._still = self._painted() if route.motion is None else None
+        self._still = None if route.is_moving else self._painted()
 
     def picture(self, state: State) -> np.ndarray:
         """(SIDE, 2 SIDE, 3) of uint8: the X-ray picture with the vessel as a road map, and the view beside it."""
@@ -52,13 +52,13 @@ class Scenery:
     def _painted(self) -> np.ndarray:
         """The wall and the target where they are now."""
         picture = np.full((SIDE, SIDE, 3), _BACKGROUND, dtype=np.uint8)
-        motion, target = self._route.motion, self._route.target_position
-        seen = ((self._wall if motion is None else motion.moved(self._wall)) - self._middle) @ self._axes.T
+        seen = (self._route.moved(self._wall) - self._middle) @ self._axes.T
         far = np.argsort(seen[:, 2])    # what is nearer is painted over it
         depth = seen[far, 2]
         light = 0.35 + 0.65 * (depth - depth.min()) / max(float(np.ptp(depth)), 1e-9)
-        self._paint(picture, seen[far], np.asarray(_VESSEL) * light[:, None], int(motion is not None))
-        self._paint(picture, (target[None] - self._middle) @ self._axes.T, np.asarray(_TARGET)[None], 3)
+        self._paint(picture, seen[far], np.asarray(_VESSEL) * light[:, None], int(self._route.is_moving))
+        target = self._route.target_position[None]
+        self._paint(picture, (target - self._middle) @ self._axes.T, np.asarray(_TARGET)[None], 3)
         return picture
 
     def _paint(self, picture: np.ndarray, seen: np.ndarray, colours: np.ndarray, around: int) -> None:

@@ -149,7 +149,7 @@ class Route:
     @property
     def target_position(self) -> np.ndarray:
         """(3,), units, where it is now."""
-        return self._now(self.points[self.target])
+        return self.moved(self.points[self.target][None])[0]
 
     def follow(self, state: State) -> None:
         """Take the vessel as it is in a state: one that moves, or gives way as a beam."""
@@ -162,14 +162,22 @@ class Route:
 
             self._given = GivenVessel(line[:, :3])
 
-    def _now(self, point: np.ndarray) -> np.ndarray:
-        if self._bent is not None:
-            point = self._given.moved(point[None], self._bent[:, 3:])[0]
-        return point if self.motion is None else self.motion.moved(point[None])[0]
+    @property
+    def is_moving(self) -> bool:
+        """Whether the vessel moves or gives way."""
+        return self.motion is not None or self._bent is not None
 
-    def _at_rest(self, point: np.ndarray) -> np.ndarray:
+    def moved(self, points: np.ndarray) -> np.ndarray:
+        """Return where points (n, 3) of the vessel at rest are now."""
+        if self._bent is not None:
+            points = self._given.moved(points, self._bent[:, 3:])
+        return points if self.motion is None else self.motion.moved(points)
+
+    def _belongs(self, point: np.ndarray) -> tuple[int, np.ndarray]:
+        """Return the centreline's point that a point (3,) belongs to, and where that is at rest."""
         point = point if self.motion is None else self.motion.at_rest(point[None])[0][0]
-        return point if self._bent is None else self._given.at_rest(point[None], self._bent[:, 3:])[0]
+        point = point if self._bent is None else self._given.at_rest(point[None], self._bent[:, 3:])[0]
+        return int(np.argmin(self._power - 2.0 * (self.points @ point))), point
 
     def _move(self, placement: Placement) -> None:
         scale, turn = placement.scale, placement.rotation.T
@@ -183,21 +191,18 @@ class Route:
     def place(self, point: np.ndarray) -> tuple[int, float]:
         """Return the centreline's point that a point (3,) belongs to, and the distance that is left from there,
         units."""
-        point = self._at_rest(point)
-        index = int(np.argmin(self._power - 2.0 * (self.points @ point)))
+        index, point = self._belongs(point)
         along, length = float((point - self.points[index]) @ self._steps[index]), float(self._lengths[index])
         return index, float(self.left[index]) - min(max(along, -length), length)
 
     def has_left(self, point: np.ndarray) -> bool:
         """Return whether a point (3,) is beyond one of the ends but the first, in whose sphere its place is."""
-        point = self._at_rest(point)
-        index = int(np.argmin(self._power - 2.0 * (self.points @ point)))
+        index, point = self._belongs(point)
         return bool(index in self._outlets and (point - self.points[index]) @ self._outlets[index] > 0.0)
 
     def until_outlet(self, point: np.ndarray) -> float:
         """Return how far it is from a point (3,) along the centreline to the nearest open end downstream, units."""
-        point = self._at_rest(point)
-        index = int(np.argmin(self._power - 2.0 * (self.points @ point)))
+        index, point = self._belongs(point)
         return float(self.until_end[index] - (point - self.points[index]) @ self._downstream[index])
 
     def ahead(self, index: int, distance: float) -> np.ndarray:
@@ -205,7 +210,7 @@ class Route:
         goal = self.left[index] - distance
         while index != self.target and self.left[index] > goal:
             index = int(self.next[index])
-        return self._now(self.points[index])
+        return self.moved(self.points[index][None])[0]
 
 
 def _is_number(value: Any) -> bool:

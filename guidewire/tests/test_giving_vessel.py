@@ -127,7 +127,7 @@ def test_environments_have_their_distances_in_the_vessel_that_gave_way(tmp_path)
         route.follow(state)
         tip = state.positions[-1]
         assert route.place(tip)[1] == pytest.approx(state.place.left, abs=0.2)
-        np.testing.assert_allclose(tip - route._at_rest(tip), state.vessel_displacement, atol=0.02)
+        np.testing.assert_allclose(tip - route._belongs(tip)[1], state.vessel_displacement, atol=0.02)
     assert np.linalg.norm(state.vessel_displacement) > 0.3
     line = state.vessel_centreline
     near = line[:, :3] + np.random.default_rng(3).uniform(-1.5, 1.5, (len(line), 3))
