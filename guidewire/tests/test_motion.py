@@ -207,6 +207,26 @@ def test_a_field_that_folds_and_other_solvers_are_refused(live, scene, tmp_path)
     assert answer.exit_code == 2 and "vessel.motion" in answer.message and "solver direct" in answer.message
 
 
+def test_a_lumen_that_narrows_leaves_the_wire_out_of_its_wall(live, tmp_path):
+    """By a fifth, around a wire that lies on its wall: gaps at rest would let it a fifth of its radius into it."""
+    phases, line = np.arange(8) / 8, np.c_[np.zeros((11, 2)), np.linspace(-60, 60, 11)]
+    scales = np.tile(0.9 - 0.1 * np.cos(2 * np.pi * (phases - 0.5))[:, None], (1, 11))
+    write_centreline(tmp_path / "narrow.csv", [line], [np.zeros((8, 11, 3))], phases, [scales])
+    scene = {**SCENE, "insertionSpeed": 0, "gravity": [0, -9.81, 0], "wireRadius": 4e-4, "youngsModulus": 1e9,
+             "shearModulus": 4e8, "guidewireLength": 100, "guidewireOffset": -50, "numberRodElements": 50,
+             "rotation": [0, 0, 0], "position": [0, 0, 0],
+             "vessel": {"shape": "tube", "knots": [[0, 0, -60], [0, 0, 60]], "radius": 1,
+                        "motion": {"period": 0.4, "rampTime": 0, "centreline": "narrow.csv"}}}
+    (tmp_path / "scene.json").write_text(json.dumps(scene))
+    answer = live.run(Request("narrow", tmp_path / "scene.json", tmp_path / "run"))
+    assert answer.exit_code == 0, answer.message
+    log, summary = read_log(tmp_path / "run", "all"), json.loads((tmp_path / "run/summary.json").read_text())
+    assert summary["maxPenetration"] == 0.0 and summary["outcome"] == "finished"
+    deepest = np.abs(log.positions[:, :, :2]).max(axis=(1, 2))
+    wide = 0.9 - 0.1 * np.cos(2 * np.pi * (log.time / 0.4 - 0.5))
+    assert (deepest + 0.4 < wide + 1e-9).all() and (wide - deepest).min() < 0.5
+
+
 def test_contrast_agent_goes_with_its_vessel(tmp_path):
     """A vessel that moves along itself is seen as the one that stands still is from a place that goes along."""
     names, _ = write_frames(tmp_path, np.c_[np.zeros((61, 2)), np.linspace(-60, 60, 61)], 3.0, [lambda x: x])

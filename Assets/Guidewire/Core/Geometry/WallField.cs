@@ -20,7 +20,7 @@ namespace Guidewire.Core
     {
         private const double Negligible = 36.0;    // exponent of a weight beside the largest
         private const int MaxSteps = 40;
-        private const int PerPoint = 7;            // values of a cycle
+        internal const int PerPoint = 7;           // values of a cycle, the last one that of scale
         private const double Rounding = 1e-14;     // of a coordinate
 
         private readonly WallMotion _motion;

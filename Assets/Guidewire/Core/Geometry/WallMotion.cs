@@ -54,6 +54,29 @@ namespace Guidewire.Core
         public IReadOnlyList<Vector3d[]> PointsOf(int cycle) =>
             Cycles[cycle].IsRigid ? Array.Empty<Vector3d[]>() : Branches;
 
+        /// <summary>The least scale of a section in a cycle, 1 or less.</summary>
+        public double Narrowest
+        {
+            get
+            {
+                const int Phases = 24;
+                double least = 1.0;
+                foreach (MotionCycle cycle in Cycles)
+                {
+                    var values = new double[cycle.IsRigid ? 0 : cycle.Count];
+                    for (int k = 0; k < Phases && values.Length > 0; k++)
+                    {
+                        cycle.Evaluate((double)k / Phases, values);
+                        for (int at = WallField.PerPoint - 1; at < values.Length; at += WallField.PerPoint)
+                        {
+                            least = Math.Min(least, 1.0 + values[at]);
+                        }
+                    }
+                }
+                return least;
+            }
+        }
+
         /// <summary>The beam as which the vessel gives way before the cycles move it; null: it is rigid.</summary>
         public WallBeam? Beam { get; set; }
 

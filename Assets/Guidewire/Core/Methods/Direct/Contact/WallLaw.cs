@@ -69,6 +69,10 @@ namespace Guidewire.Core
                 _stiffness = soft.Stiffness;
                 _length = new double[n];
                 _moved = wall.MovedOut(units * soft.Limit);
+            }
+            Narrowest = IsSoft ? 1.0 : wall.Motion?.Narrowest ?? 1.0;
+            if (IsSoft || Narrowest < 1.0)
+            {
                 _nodeRadius = new double[n + 1];
                 _elementRadius = new double[n];
             }
@@ -113,8 +117,17 @@ namespace Guidewire.Core
                     _element[j] = Soft(soft, isMoved, soft.TipLength, _rod.Radius[j], out _elementRadius[j]);
                 }
             }
+            for (int i = 0; i <= n && Narrowest < 1.0; i++)
+            {
+                _nodeRadius[i] = _ofNodes[i] / Narrowest;
+                _elementRadius[Math.Max(i - 1, 0)] = _rod.Radius[Math.Max(i - 1, 0)] / Narrowest;
+            }
             Array.Copy(_node, _current, n + 1);
         }
+
+        /// <summary>The least scale of a section of the wall in a cycle. Gaps are those at rest: where sections become
+        /// narrower the wire is thicker there by as much, so that it stays out of the wall.</summary>
+        public double Narrowest { get; }
 
         /// <summary>The least range of all gaps, m.</summary>
         public double MinDistance

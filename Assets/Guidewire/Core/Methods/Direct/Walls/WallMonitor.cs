@@ -209,7 +209,8 @@ namespace Guidewire.Core
                     double radius = _units * _barrier.LawOf(w).RadiusOf(j);
                     if (_barrier.Fields.Of[w] is WallField field)
                     {
-                        deepest = Math.Max(deepest, DepthInSpace(w, j, field, radius, ref hint));
+                        deepest = Math.Max(deepest,
+                            DepthInSpace(w, j, field, _barrier.LawOf(w).Narrowest * radius, ref hint));
                         continue;
                     }
                     Vector3d[] x = _from.InSpace;
