@@ -225,6 +225,12 @@ def test_a_lumen_that_narrows_leaves_the_wire_out_of_its_wall(live, tmp_path):
     deepest = np.abs(log.positions[:, :, :2]).max(axis=(1, 2))
     wide = 0.9 - 0.1 * np.cos(2 * np.pi * (log.time / 0.4 - 0.5))
     assert (deepest + 0.4 < wide + 1e-9).all() and (wide - deepest).min() < 0.5
+    for least, expected in ((0.2, "by 1/0.2 thicker for the lumen that narrows, starts outside"),
+                            (-0.5, "the motion closes the vessel")):
+        write_centreline(tmp_path / "narrow.csv", [line], [np.zeros((8, 11, 3))], phases,
+                         [1 - (1 - least) / 0.2 * (1 - scales)])
+        answer = live.run(Request("wrong", tmp_path / "scene.json", tmp_path / f"run{least}"))
+        assert answer.exit_code == 2 and expected in answer.message
 
 
 def test_contrast_agent_goes_with_its_vessel(tmp_path):

@@ -20,6 +20,7 @@ namespace Guidewire.Core
             double rampTime)
         {
             (Cycles, Branches, Spacing, RampTime) = (cycles, branches, spacing, rampTime);
+            Narrowest = FindNarrowest(cycles);
         }
 
         /// <summary>The cycles, in the order in which they act.</summary>
@@ -55,27 +56,7 @@ namespace Guidewire.Core
             Cycles[cycle].IsRigid ? Array.Empty<Vector3d[]>() : Branches;
 
         /// <summary>The least scale of a section in a cycle, 1 or less.</summary>
-        public double Narrowest
-        {
-            get
-            {
-                const int Phases = 24;
-                double least = 1.0;
-                foreach (MotionCycle cycle in Cycles)
-                {
-                    var values = new double[cycle.IsRigid ? 0 : cycle.Count];
-                    for (int k = 0; k < Phases && values.Length > 0; k++)
-                    {
-                        cycle.Evaluate((double)k / Phases, values);
-                        for (int at = WallField.PerPoint - 1; at < values.Length; at += WallField.PerPoint)
-                        {
-                            least = Math.Min(least, 1.0 + values[at]);
-                        }
-                    }
-                }
-                return least;
-            }
-        }
+        public double Narrowest { get; }
 
         /// <summary>The beam as which the vessel gives way before the cycles move it; null: it is rigid.</summary>
         public WallBeam? Beam { get; set; }
@@ -89,6 +70,10 @@ namespace Guidewire.Core
             if (Branches.Count == 0)
             {
                 return null;
+            }
+            if (!(Narrowest > 0.0))
+            {
+                return "the motion closes the vessel: a scale of its sections comes to 0 or less";
             }
             var field = new WallField(this);
             double period = 0.0;    // of the one cycle that moves the centreline; rigid ones fold nothing
@@ -110,6 +95,25 @@ namespace Guidewire.Core
                 }
             }
             return null;
+        }
+
+        private static double FindNarrowest(IReadOnlyList<MotionCycle> cycles)
+        {
+            const int Phases = 24;
+            double least = 1.0;
+            foreach (MotionCycle cycle in cycles)
+            {
+                var values = new double[cycle.IsRigid ? 0 : cycle.Count];
+                for (int k = 0; k < Phases && values.Length > 0; k++)
+                {
+                    cycle.Evaluate((double)k / Phases, values);
+                    for (int at = WallField.PerPoint - 1; at < values.Length; at += WallField.PerPoint)
+                    {
+                        least = Math.Min(least, 1.0 + values[at]);
+                    }
+                }
+            }
+            return least;
         }
     }
 

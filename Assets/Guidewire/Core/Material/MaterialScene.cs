@@ -263,10 +263,14 @@ namespace Guidewire.Core
                         continue;    // it was elsewhere then
                     }
                     double radius = units * (scene.Rod.Radius[j] - (wall.Softness?.MaxOf(scene.Rod.Radius[j]) ?? 0.0));
+                    double narrowest = wall.Softness == null ? wall.Motion?.Narrowest ?? 1.0 : 1.0;
+                    radius /= narrowest;
                     Vector3d[] onWall = wall.Motion == null ? x : OnWall(x, new WallField(wall.Motion));
                     if (!WireStart.IsFree(wall, scene.IsReached, onWall, j, fraction * radius, out double distance))
                     {
-                        return name + Text(j, x[j], x[j + 1], radius, distance, wall);
+                        return name + (narrowest < 1.0 ? System.FormattableString.Invariant(
+                            $", by 1/{narrowest:G3} thicker for the lumen that narrows,") : "")
+                            + Text(j, x[j], x[j + 1], radius, distance, wall);
                     }
                 }
             }
