@@ -69,7 +69,8 @@ namespace Guidewire.Cli
                     TakePlaces(request, answer);
                     return;
                 case "drive":
-                    answer["tables"] = new JArray(Enumerable.Range(0, Opened().InstrumentCount).Select(Opened().DriveTable));
+                    answer["tables"] = new JArray(Enumerable.Range(0, Opened().InstrumentCount)
+                        .Select(Opened().DriveTable));
                     return;
                 case "change":
                     _pictures = null;
