@@ -110,12 +110,7 @@ namespace Guidewire.Core.Tests
         [Test]
         public void LongerCatheter_HasItsTipWhereTheOthersWas_AndIsThereAfterAReset()
         {
-            File.WriteAllText(_file, ("{'solver': 'direct', 'guidewireLength': 120, 'numberRodElements': 30,"
-                + " 'vessel': {'shape': 'tube', 'knots': [[0, 0, -10], [0, 0, 200]], 'radius': 4},"
-                + " 'sheath': {'exit': [0, 0, 0]}, 'guidewireOffset': -100, 'wireRadius': 0.0003, 'massDamping': 20,"
-                + " 'proximalEnd': 'clamped', 'drive': 'displace', 'timeStep': 0.02, 'deltaThreshold': 0,"
-                + " 'catheters': [{'start': 20, 'length': 84, 'elements': 28, 'wireRadius': 0.0008,"
-                + " 'lumenRadius': 0.0005}]}").Replace('\'', '"'));
+            WriteCatheter(20);
             using SimulationSession session = Open("", true);
             session.Step(new[] { 0.2, 0.0, -0.5, 0.01 });
             session.Step(new[] { 0.2, 0.0 });
@@ -135,6 +130,44 @@ namespace Guidewire.Core.Tests
             Vector3d[] start = session.Simulation.Coaxial()!.Positions;
             Assert.That(start, Has.Length.EqualTo(46));
             Assert.That(Vector3d.Distance(start[45], start[44]), Is.EqualTo(2.0).Within(1e-6));
+        }
+
+        [Test]
+        public void TableOfAHubThatWasCarriedAlong_LeavesThatOut_AndGivesTheSameBits()
+        {
+            WriteCatheter(2);
+            using SimulationSession steered = Open("", true);
+            steered.RecordSteering();
+            for (int k = 0; k < 12; k++)
+            {
+                steered.Step(new[] { k < 10 ? 0.5 : 0.0, 0.0, k < 10 ? 0.0 : -0.25, 0.0 });
+            }
+            Assert.That(steered.Simulation.Coaxial()!.Insertion, Is.EqualTo(2.5e-3).Within(1e-6), "there and back");
+            var keys = new List<string>();
+            for (int hub = 0; hub < 2; hub++)
+            {
+                string table = Path.Combine(Folder, "hub" + hub + ".csv");
+                File.WriteAllText(table, steered.DriveTable(hub));
+                keys.Add((hub == 0 ? "" : "catheters[0].") + "driveFile=" + table);
+            }
+            Assert.That(steered.DriveTable(1).TrimEnd().Split('\n')[^1].Split(',')[1], Does.StartWith("-0.0005"));
+            using SimulationSession driven = Open("", false, keys.ToArray());
+            for (int k = 0; k < 12; k++)
+            {
+                driven.Step(0.0, 0.0);
+            }
+            Assert.That(driven.Simulation.State.Positions, Is.EqualTo(steered.Simulation.State.Positions));
+        }
+
+        // Through a sheath.
+        private void WriteCatheter(int start)
+        {
+            File.WriteAllText(_file, ("{'solver': 'direct', 'guidewireLength': 120, 'numberRodElements': 30,"
+                + " 'vessel': {'shape': 'tube', 'knots': [[0, 0, -10], [0, 0, 200]], 'radius': 4},"
+                + " 'sheath': {'exit': [0, 0, 0]}, 'guidewireOffset': -100, 'wireRadius': 0.0003, 'massDamping': 20,"
+                + " 'proximalEnd': 'clamped', 'drive': 'displace', 'timeStep': 0.02, 'deltaThreshold': 0,"
+                + " 'catheters': [{'start': " + start + ", 'length': 84, 'elements': 28, 'wireRadius': 0.0008,"
+                + " 'lumenRadius': 0.0005}]}").Replace('\'', '"'));
         }
 
         [Test]

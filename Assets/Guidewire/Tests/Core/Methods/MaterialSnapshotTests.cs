@@ -14,10 +14,11 @@ namespace Guidewire.Core.Tests
         /// <summary>Motions that are interrupted in <see cref="ContinueTests"/>.</summary>
         internal static IEnumerable<(string Name, SimulationParameters Parameters)> Motions()
         {
-            foreach (string scene in new[] { "cut steps", "damped cut steps", "damped ramp", "twist and push",
+            foreach (string scene in new[] { "halved steps", "cut steps", "damped cut steps",
+                "damped ramp", "twist and push",
                 "release", "free", "sliding", "couple" })
             {
-                bool isCut = scene.EndsWith("cut steps", StringComparison.Ordinal);
+                bool isCut = scene.EndsWith("steps", StringComparison.Ordinal);
                 foreach (Integrator scheme in MethodTable.Of(Solver.Direct).Integrators)
                 {
                     if (!isCut || scheme == Integrator.Trbdf2 || scheme == Integrator.Esdirk3
@@ -186,6 +187,13 @@ namespace Guidewire.Core.Tests
                     parameters.Scene.TipForce = new Vector3d(0.0, 3.0 * Rods.BendForce, 0.0);
                     parameters.Scene.TipForceReleaseTime = 5.3 * dt;
                     parameters.Method.TimeStepError = 1e-5;
+                    break;
+                case "halved steps":
+                    parameters.Scene.InitialState = InitialState.Equilibrium;
+                    parameters.Scene.TipForce = new Vector3d(0.0, 3.0 * Rods.BendForce, 0.0);
+                    parameters.Scene.TipForceReleaseTime = 5.3 * dt;
+                    parameters.Method.TimeStep = 10.0 * dt;
+                    parameters.Method.MaxNewtonIterations = 4;
                     break;
                 case "free":
                     parameters.Scene.ProximalEnd = ProximalEnd.Free;
