@@ -237,6 +237,8 @@ class Session:
     def restore(self, saved: bytes) -> State:
         """Go on from what was saved: the same steps then give the same bits, but for rounding between walls that are
         meshes and in a sheath that is not along an axis of the scene."""
+        if not isinstance(saved, (bytes, bytearray)):
+            raise SessionError("restore takes the bytes that save gave")
         return self._move("restore", snapshot=base64.b64encode(saved).decode("ascii"))
 
     def describe(self) -> dict[str, Any]:

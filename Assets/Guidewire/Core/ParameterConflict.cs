@@ -112,6 +112,8 @@ namespace Guidewire.Core
                 + "an angle that a mandrel can leave there"),
             new Rule("innerRadius", p => p.IsMaterial && p.Material.InnerRadius >= p.Material.WireRadius,
                 "less than wireRadius"),
+            new Rule("elasticSlip", p => p.Traits.HasBarriers && p.Contact.ElasticSlip > p.Material.WireRadius,
+                "at most wireRadius: contacts that give way elastically over more have hardly any friction"),
             new Rule("wireSections", p => p.IsMaterial && HasHollowTooWide(p.Material),
                 "every wireRadius larger than innerRadius"),
             new Rule("wireRadius", p => p.IsMaterial && !HasStiffness(p),

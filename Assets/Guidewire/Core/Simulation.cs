@@ -8,6 +8,8 @@ namespace Guidewire.Core
     /// same parameters give the same bits on the same runtime.</summary>
     public sealed class Simulation
     {
+        private const double Leap = 1e-6;    // of the wire's length: what rounding makes of a wall that goes on
+
         private const double Same = 1e-9;    // of an element's length
 
         private readonly bool _hasMaterial;
@@ -264,7 +266,25 @@ namespace Guidewire.Core
             Serialize(snapshot);
             RodStart start = State.ToStart(_start.ProximalFrame, _start.DistalFrame);
             start.ExitOfSheath = parameters.Scene.Sheath?.Exit == _givenExit ? _start.ExitOfSheath : null;
-            return Rebuild(parameters, start, snapshot.ToRead());
+            Simulation next = Rebuild(parameters, start, snapshot.ToRead());
+            double leap = LeapOfWalls(next, parameters.Scene.Walls.Length);
+            return leap <= Leap * parameters.Scene.GuidewireLength ? next : throw new ArgumentException(
+                FormattableString.Invariant($"vessel.motion: the wall would leap by up to {leap:G3} units where the wire ")
+                + "is: during a run its period or heartRate alone can change");
+        }
+
+        // Units: how far nodes are from where they were, as moving walls see them.
+        private double LeapOfWalls(Simulation next, int walls)
+        {
+            double largest = 0.0;
+            for (int wall = 0; wall < walls; wall++)
+            {
+                if (FieldOf(wall) is WallField before && next.FieldOf(wall) is WallField after)
+                {
+                    largest = Math.Max(largest, State.Positions.Max(x => (before.AtRest(x) - after.AtRest(x)).Length));
+                }
+            }
+            return largest;
         }
 
         /// <summary>Why another instrument cannot take the place of one now, in one phrase, or null.</summary>

@@ -15,7 +15,8 @@ namespace Guidewire.Core
         private const int Terms = 5;
         private const double Negligible = 36.0;    // exponent of a weight beside the largest
         private const double Smallest = 1e-12;     // determinant of the normal equations, in lengths of h
-        private const int MostVertices = 2000;     // that a misfit is found at
+        private const int MostVertices = 2000;     // that a misfit is found at, evenly spread
+        private const double Farther = 1.1;        // than these, and it is looked at, too
 
         /// <summary>Gives the rows of <see cref="MotionCycle.Table"/> by frame.</summary>
         /// <param name="branches">Points of the centreline at rest, units.</param>
@@ -37,7 +38,8 @@ namespace Guidewire.Core
         }
 
         /// <summary>How far vertices are from where a cycle takes those at rest, units: the root of the mean square,
-        /// and the largest.</summary>
+        /// and the largest. Of a large mesh a part is looked at, and every vertex that goes farther than those.
+        /// </summary>
         public static (double Mean, double Largest) Misfit(MotionCycle cycle, IReadOnlyList<Vector3d[]> branches,
             double spacing, Vector3d[][] frames)
         {
@@ -49,11 +51,20 @@ namespace Guidewire.Core
             for (int p = 0; p < frames.Length; p++)
             {
                 field.SetTime((double)p / frames.Length);
+                double farthest = 0.0;
                 for (int i = 0; i < frames[p].Length; i += step, count++)
                 {
                     double miss = Vector3d.Distance(field.Moved(frames[0][i]), frames[p][i]);
                     sum += miss * miss;
                     largest = Math.Max(largest, miss);
+                    farthest = Math.Max(farthest, Vector3d.Distance(frames[0][i], frames[p][i]));
+                }
+                for (int i = 0; i < frames[p].Length; i++)
+                {
+                    if (Vector3d.Distance(frames[0][i], frames[p][i]) > Farther * farthest)
+                    {
+                        largest = Math.Max(largest, Vector3d.Distance(field.Moved(frames[0][i]), frames[p][i]));
+                    }
                 }
             }
             return (Math.Sqrt(sum / count), largest);

@@ -12,6 +12,8 @@ namespace Guidewire.Io
     /// obstacles have absolute coordinates.</summary>
     internal static class WallReader
     {
+        private const double Rounding = 1e-9;    // units
+
         /// <summary>The key of a mesh's sum.</summary>
         public const string Sha256 = "sha256";
 
@@ -38,7 +40,7 @@ namespace Guidewire.Io
                     MotionReader.Read(fields, values, sourceOf, vessel, null, from.Mesh?.Motion));
                 walls.Add(vessel);
                 warnings.AddRange((vessel.Motion?.Cycles ?? Array.Empty<MotionCycle>())
-                    .Where(cycle => cycle.Misfit.HasValue).Select(cycle => WarningTable.FrameMisfit.Text(
+                    .Where(cycle => cycle.Misfit?.Largest > Rounding).Select(cycle => WarningTable.FrameMisfit.Text(
                         cycle.Misfit!.Value.Mean, cycle.Misfit.Value.Largest)));
                 values.Places = values.Path == null ? null
                     : new LumenPlaces(values.Path, values.Anatomy!.Ends, vessel);

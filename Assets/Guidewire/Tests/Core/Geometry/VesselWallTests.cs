@@ -1,4 +1,5 @@
 using System;
+using System.Linq;
 using NUnit.Framework;
 
 namespace Guidewire.Core.Tests
@@ -94,6 +95,32 @@ namespace Guidewire.Core.Tests
                 right[k] /= matrix[k, k];
             }
             return right;
+        }
+
+        /// <summary>Every third of these vertices is looked at, and each one that goes farther.</summary>
+        [TestCase(0, 0.0)]
+        [TestCase(0, 50.0)]
+        [TestCase(1, 50.0)]
+        [TestCase(5000, -50.0)]
+        public void MisfitOfFrames_HasAlsoTheVertexThatAloneIsElsewhere(int vertex, double off)
+        {
+            var line = new Vector3d[41];
+            for (int k = 0; k < line.Length; k++)
+            {
+                line[k] = new Vector3d(0.0, 0.0, 2.5 * k);
+            }
+            var rest = new Vector3d[5001];
+            for (int i = 0; i < rest.Length; i++)
+            {
+                rest[i] = new Vector3d(3.0 * Math.Cos(0.7 * i), 3.0 * Math.Sin(0.7 * i), 100.0 * i / rest.Length);
+            }
+            Vector3d[][] frames = new double[] { 0.0, 1.0, 2.0, 1.0 }.Select(y =>
+                rest.Select(x => x + new Vector3d(0.0, y, 0.0)).ToArray()).ToArray();
+            double[][] rows = FrameFit.Rows(new[] { line }, 2.5, frames);
+            frames[2][vertex] += new Vector3d(off, 0.0, 0.0);
+            MotionCycle cycle = MotionCycle.Table(1.0, 0.0, new[] { 0.0, 0.25, 0.5, 0.75 }, rows, null);
+            Assert.That(FrameFit.Misfit(cycle, new[] { line }, 2.5, frames).Largest,
+                Is.EqualTo(Math.Abs(off)).Within(1e-3));
         }
     }
 }

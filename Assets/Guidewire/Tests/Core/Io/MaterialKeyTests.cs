@@ -140,6 +140,14 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
+        public void ElasticSlip_IsAtMostTheWiresRadius()
+        {
+            Assert.That(() => Load(("solver", "direct"), ("wireRadius", 4e-4), ("elasticSlip", 4e-4)), Throws.Nothing);
+            Assert.That(() => Load(("solver", "direct"), ("wireRadius", 4e-4), ("elasticSlip", 4.1e-4)),
+                Throws.TypeOf<ParameterException>().With.Message.Contains("needs at most wireRadius"));
+        }
+
+        [Test]
         public void HollowAsWideAsTheWire_IsRefused()
         {
             Assert.That(() => Load(("solver", "direct"), ("innerRadius", 0.0005)),

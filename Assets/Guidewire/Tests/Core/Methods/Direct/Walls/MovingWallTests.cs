@@ -251,14 +251,32 @@ namespace Guidewire.Core.Tests
             Assert.That(changed.FieldOf(0)!.Moved(Vector3d.Zero).X, Is.EqualTo(x).Within(0.05));
         }
 
-        private static SimulationParameters Clamped(Vector3d translation, double period = 1.0)
+        /// <summary>Another amplitude or phase would make the wall leap: the wire in its lumen would be outside, or not
+        /// know.</summary>
+        [TestCase(0.5, 0.0)]
+        [TestCase(1.0, 0.25)]
+        public void AMotionThatLeaps_IsRefused_WhileTheRunGoesOn(double part, double phase)
+        {
+            SimulationParameters parameters = Clamped(Vector3d.UnitX);
+            Simulation simulation = Simulation.Create(parameters);
+            Go(simulation, 40);
+            SimulationParameters other = parameters.Copy();
+            other.Scene.Walls = WallScenes.Tube(-10.0, 200.0, 5.0);
+            other.Scene.Walls[0].Motion = Clamped(part * Vector3d.UnitX, 1.0, phase).Scene.Walls[0].Motion;
+            Assert.That(() => simulation.Continue(other), Throws.ArgumentException.With.Message.Contains(
+                "vessel.motion: the wall would leap by up to"));
+            Go(simulation, 1);
+            Assert.That(simulation.Outcome, Is.EqualTo(Outcome.Running));
+        }
+
+        private static SimulationParameters Clamped(Vector3d translation, double period = 1.0, double phase = 0.0)
         {
             SimulationParameters parameters = WallScenes.Wire(30, 0.2e-3);
             parameters.Scene.GuidewireLength = 60.0;
             parameters.Scene.GuidewireOffset = 0.0;
             parameters.Scene.Walls = WallScenes.Tube(-10.0, 200.0, 5.0);
-            parameters.Scene.Walls[0].Motion = new WallMotion(new[] { MotionCycle.Sine(period, 0.0, translation,
-                Vector3d.Zero, Vector3d.Zero) }, Array.Empty<Vector3d[]>(), 1.0, 0.25 * period);
+            parameters.Scene.Walls[0].Motion = new WallMotion(new[] { MotionCycle.Sine(period, phase,
+                translation, Vector3d.Zero, Vector3d.Zero) }, Array.Empty<Vector3d[]>(), 1.0, 0.25 * period);
             parameters.Drive.Kind = Drive.Hold;
             parameters.Drive.Displacement = 0.0;
             parameters.Material.MassDamping = 20.0;
