@@ -1,4 +1,6 @@
 using System;
+using System.Globalization;
+using System.Text.RegularExpressions;
 using NUnit.Framework;
 
 namespace Guidewire.Core.Tests
@@ -112,6 +114,43 @@ namespace Guidewire.Core.Tests
             Assert.That(rest.Outcome, Is.EqualTo(Outcome.Converged), rest.Reason);
             // Away from rest by what the threshold allows, and by as much in its swing.
             Assert.That(Wires.Distance(run.State, rest.State), Is.LessThan(2.0 * Threshold));
+        }
+
+        /// <summary>Near its critical load a straight wire swings by A = v/omega in the mode 1 - cos(pi z/2L), with
+        /// omega^2 of Rayleigh's quotient; the largest turn times L is pi/2 of that.</summary>
+        [Test]
+        public void SwingOfAWireNearItsCriticalLoad_IsThatOfItsMode()
+        {
+            const double Share = 0.99;
+            const double Speed = 1e-6;    // m/s, of the tip
+            const int N = 40;
+            SimulationParameters parameters = Rods.Clamped(N, Solver.Direct, 1e-9, 100);
+            parameters.Scene.InitialState = InitialState.Equilibrium;
+            parameters.Scene.TipForce = new Vector3d(0.0, 0.0, -0.25 * Share * Math.PI * Math.PI * Rods.BendForce);
+            parameters.Method.DeltaThreshold = 1.0;
+            MethodStart start = MethodBuilder.Build(parameters, new Scene(parameters));
+            var run = (DirectStep)start.Stepper;
+            double k = 0.5 * Math.PI / Rods.Length;
+            for (int i = 0; i <= N; i++)
+            {
+                double z = Rods.Length * i / N;
+                run.Dynamics.Velocities[i] = new Vector3d(0.0, Speed * (1.0 - Math.Cos(k * z)), 0.0);
+                if (i < N)
+                {
+                    double middle = z + 0.5 * Rods.Length / N;
+                    run.Dynamics.Spins[i] = new Vector3d(-Speed * k * Math.Sin(k * middle), 0.0, 0.0);
+                }
+            }
+            run.Advance(start.State);
+            CrossSection section = CrossSection.At(parameters.Material, 0.0);
+            // Integrals of k^4 cos^2 and k^2 sin^2, and of (1 - cos)^2 = L (3/2 - 4/pi).
+            double stiffness = 0.5 * section.BendStiffness1 * Math.Pow(k, 4.0) * (1.0 - Share) * Rods.Length;
+            double mass = section.LineDensity * (1.5 - 4.0 / Math.PI) * Rods.Length;
+            double swing = 1e3 * 0.5 * Math.PI * Speed / Math.Sqrt(stiffness / mass);
+            Match said = Regex.Match(run.SteadyState ?? "", "swinging by ([^;]+);");
+            Assert.That(said.Success, Is.True, run.SteadyState);
+            Assert.That(double.Parse(said.Groups[1].Value, CultureInfo.InvariantCulture),
+                Is.EqualTo(swing).Within(5.0).Percent);
         }
 
         [Test]
