@@ -269,8 +269,8 @@ namespace Guidewire.Core
             Simulation next = Rebuild(parameters, start, snapshot.ToRead());
             double leap = LeapOfWalls(next, parameters.Scene.Walls.Length);
             return leap <= Leap * parameters.Scene.GuidewireLength ? next : throw new ArgumentException(
-                FormattableString.Invariant($"vessel.motion: the wall would leap by up to {leap:G3} units where the wire ")
-                + "is: during a run its period or heartRate alone can change");
+                FormattableString.Invariant($"vessel.motion: the wall would leap by up to {leap:G3} units where the ")
+                + "wire is: during a run its period or heartRate alone can change");
         }
 
         // Units: how far nodes are from where they were, as moving walls see them.

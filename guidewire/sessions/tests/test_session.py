@@ -255,6 +255,7 @@ def test_what_cannot_be_done_is_one_line_and_the_session_goes_on():
             (lambda: session.restore(other.save()), "not saved by a session with these parameters"),
             (lambda: session.restore(session.save()[:-8]), "is incomplete"),
             (lambda: session.restore(b""), "is incomplete"),
+            (lambda: session.restore("text"), "the bytes that save gave"),
         ):
             with pytest.raises(SessionError, match=words) as refused:
                 wrong()

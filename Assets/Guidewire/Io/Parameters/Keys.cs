@@ -319,8 +319,8 @@ namespace Guidewire.Io
                 "k; direct: the normal force at half the contactDistance is 1.19 k times it, 0: chosen; xpbd: k times "
                 + "the penetration depth, 0: rigid").With(Takers.Only(Solver.Xpbd, Solver.Direct)),
             Key.Number("elasticSlip", "m", NumberRange.NotNegative,
-                "elastic tangential displacement up to which a contact sticks, at most wireRadius; 0: a hundredth of that")
-                .With(Takers.Only(Solver.Direct)),
+                "elastic tangential displacement up to which a contact sticks, at most wireRadius; 0: a hundredth of "
+                + "that").With(Takers.Only(Solver.Direct)),
             Key.OptionalSwitch("selfContact", "whether the wire touches itself; null: where it has walls")
                 .With(Takers.Only(Solver.Direct)),
             Key.Number("selfFriction", "", NumberRange.NotNegative, "friction coefficient of the wire on itself")
