@@ -25,6 +25,12 @@ namespace Guidewire.Core.Tests
             CoaxialPair pair = Pair(mismatch, 1.0);
             var record = new CoaxialRecord(10, 1.0, 1e-3 + play, new LumenFriction(0.0, 1.0));
             record.TakePlay(pair.Coaxial.Joints, pair.Shape);
+            // A sheath keeps both straight.
+            var sheathed = new CoaxialRecord(10, 1.0, 1e-3 + play, new LumenFriction(0.0, 1.0));
+            pair.Coaxial.SetHubs(new[] { 0.0, 0.0 }, 1.0 + 1e-9);
+            sheathed.TakePlay(pair.Coaxial.Joints, pair.Shape);
+            pair.Coaxial.SetHubs(new[] { 0.0, 0.0 }, 0.0);
+            Assert.That(sheathed.PlayLength, Is.Zero);
             double energy = TwoRods(mismatch, play, 1.0, out double tip, out double slope);
             double shared = pair.Terms.Potential(pair.Shape);
             double perLength = 0.5 * Reduced * mismatch * mismatch;

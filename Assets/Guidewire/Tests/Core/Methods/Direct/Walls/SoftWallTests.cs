@@ -30,6 +30,27 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
+        public void RangeOfAnElement_ReachesAsFarAsBothOfItsNodes()
+        {
+            // Thicker from piece to piece, to the tip and to the hub.
+            MaterialRod rod = MaterialRod.Round(4, 0.04, 0.5e-3, 1e9, 4e8, 1e3);
+            double[] radius = { 0.9e-3, 0.4e-3, 0.6e-3, 0.8e-3 };
+            for (int j = 0; j < 4; j++)
+            {
+                rod.SetRound(j, radius[j], 1e9, 4e8, 1e3);
+            }
+            const double Units = 1e3;
+            WallLaw law = WallLaw.Of(rod, WallScenes.Floor(0.0), Units, new Barrier(1e-5, 10.0))[0];
+            var range = new double[4];
+            law.AddRanges(Units, range);
+            for (int j = 0; j < 4; j++)
+            {
+                double thickest = Math.Max(radius[Math.Max(j - 1, 0)], Math.Max(radius[j], radius[Math.Min(j + 1, 3)]));
+                Assert.That(range[j], Is.EqualTo(Units * (thickest + 1e-5)).Within(1e-9), "element " + j);
+            }
+        }
+
+        [Test]
         public void Chord_OfASoftWall_EndsAtTheForceAskedFor([Values(0.01, 0.4, 0.99)] double gap,
             [Values(1e-6, 0.3, 2.0, 1e4)] double ratio)
         {
