@@ -47,6 +47,19 @@ namespace Guidewire.Core
             return new Vector3d(scale * q.X, scale * q.Y, scale * q.Z);
         }
 
+        /// <summary>The rotation vector of the same orientation that is nearest to another one along its own axis: more
+        /// by whole turns.</summary>
+        public static Vector3d Nearest(in Vector3d theta, in Vector3d other)
+        {
+            if (theta.LengthSquared == 0.0)
+            {
+                return theta;
+            }
+            Vector3d axis = Vector3d.Normalize(theta);
+            double turns = Math.Round(Vector3d.Dot(other - theta, axis) / (2.0 * Math.PI));
+            return theta + (2.0 * Math.PI * turns) * axis;
+        }
+
         /// <summary>Gives c(a) = (1 - (a/2) cot(a/2))/a^2, for the inverse tangent map T = 1 + [theta]/2 + c
         /// [theta]^2.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]

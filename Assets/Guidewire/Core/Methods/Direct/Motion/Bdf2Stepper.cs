@@ -120,7 +120,8 @@ namespace Guidewire.Core
                 Vector3d spin = spins[j];
                 if (_isComplete)
                 {
-                    turn = (-1.0 / 3.0) * RotationVector.Log(inertia.Start[j].Conjugate * _orientations[j]);
+                    Vector3d back = RotationVector.Log(inertia.Start[j].Conjugate * _orientations[j]);
+                    turn = (-1.0 / 3.0) * RotationVector.Nearest(back, -0.5 * dt * (spins[j] + _spins[j]));
                     spin = (4.0 / 3.0) * spin - (1.0 / 3.0) * _spins[j];
                 }
                 inertia.TurnHistory[j] = turn;

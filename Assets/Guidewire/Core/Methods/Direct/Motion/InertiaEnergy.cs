@@ -196,11 +196,9 @@ namespace Guidewire.Core
         {
             Vector3d turn = RotationVector.Log(Start[j].Conjugate * orientation);
             Vector3d last = _countedTurn[j];
-            if (last.LengthSquared > SurelyFirst && turn.LengthSquared > 0.0)
+            if (last.LengthSquared > SurelyFirst)
             {
-                Vector3d axis = Vector3d.Normalize(turn);
-                double turns = Math.Round(Vector3d.Dot(last - turn, axis) / (2.0 * Math.PI));
-                turn += (2.0 * Math.PI * turns) * axis;
+                turn = RotationVector.Nearest(turn, last);
             }
             _countedTurn[j] = turn;
             return turn;

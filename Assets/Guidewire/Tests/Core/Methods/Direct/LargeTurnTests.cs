@@ -75,6 +75,7 @@ namespace Guidewire.Core.Tests
         }
 
         [TestCase(Integrator.ImplicitEuler)]
+        [TestCase(Integrator.Bdf2)]
         [TestCase(Integrator.Trbdf2)]
         [TestCase(Integrator.Esdirk3)]
         [TestCase(Integrator.Esdirk4)]
