@@ -4,42 +4,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from numbers import Integral, Real
 from typing import Any
 
 import numpy as np
 
-from guidewire.env.randomisation import drawn_from, eased, is_choice, middle_of
+from guidewire.env.randomisation import Draw, drawn_from, eased, is_choice, middle_of
 from guidewire.env.spaces import Error
 from guidewire.env.task import LIMITS, Task, check_instruments
 
 _OPTIONS = ("nominal", "anatomy", "target", "instrument", "friction", "tip_turn", "insertion", "snapshot")
-
-
-@dataclass(frozen=True)
-class Draw:
-    """What a seed has drawn for an episode; see Task.
-
-    Attributes
-    ----------
-    instrument : a name, or of the wire and the catheters, or None: the scene's.
-    tip_turn : of all instruments, rad.
-    insertion : of each hub, or of all, m.
-    random : by name, of the task's `random`.
-    """
-
-    anatomy: int
-    target: int
-    instrument: Any
-    friction: float
-    tip_turn: float
-    insertion: Any
-    random: dict[str, Any] = field(default_factory=dict)
-
-    def as_options(self) -> dict[str, Any]:
-        """Return the options of a reset that draws the same."""
-        return {key: value for key, value in vars(self).items() if key != "random"} | self.random
 
 
 def draw_of(task: Task, random: np.random.Generator) -> Draw:

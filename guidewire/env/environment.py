@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from guidewire.env.draws import Draw, draw_of, eased_draw, with_options
+from guidewire.env.draws import draw_of, eased_draw, with_options
 from guidewire.env.drive import Drive, DriveState
 from guidewire.env.episode import SAFE_FORCE, Part, Report
 from guidewire.env.instruments import Instrument, instruments_of, names_of, of_each
@@ -18,6 +18,7 @@ from guidewire.env.loaded import LoadedScene
 from guidewire.env.observation import Observation, Observer
 from guidewire.env.options import made_of, need_number
 from guidewire.env.picture import Picture
+from guidewire.env.randomisation import Draw
 from guidewire.env.recorded import RecordedDrive, digest_of
 from guidewire.env.rendering import Scenery, Window
 from guidewire.env.route import Route

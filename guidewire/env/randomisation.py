@@ -1,10 +1,11 @@
-"""Distributions that a task's values are drawn from."""
+"""Distributions that a task's values are drawn from, and what was drawn."""
 
 from __future__ import annotations
 
 import json
 import math
 from collections.abc import Mapping
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -14,6 +15,31 @@ from guidewire.env.spaces import Error
 _ALLOWED = ("[from, to], {\"uniform\": [from, to]}, {\"logUniform\": [from, to]}, {\"normal\": [mean, deviation], "
             "\"within\": [from, to]}, {\"integers\": [from, to]}, {\"choice\": [...]}, or {\"vector\": [one for each "
             "axis]}")
+
+
+@dataclass(frozen=True)
+class Draw:
+    """What a seed has drawn for an episode; see Task.
+
+    Attributes
+    ----------
+    instrument : a name, or of the wire and the catheters, or None: the scene's.
+    tip_turn : of all instruments, rad.
+    insertion : of each hub, or of all, m.
+    random : by name, of the task's `random`.
+    """
+
+    anatomy: int
+    target: int
+    instrument: Any
+    friction: float
+    tip_turn: float
+    insertion: Any
+    random: dict[str, Any] = field(default_factory=dict)
+
+    def as_options(self) -> dict[str, Any]:
+        """Return the options of a reset that draws the same."""
+        return {key: value for key, value in vars(self).items() if key != "random"} | self.random
 
 
 def check_distribution(name: str, given: Any) -> None:

@@ -9,19 +9,16 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache, cached_property, lru_cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from guidewire.env.instruments import of_each
-from guidewire.env.randomisation import bounds_of, check_distribution
+from guidewire.env.randomisation import Draw, bounds_of, check_distribution
 from guidewire.env.spaces import Error, NameNotFound
 from guidewire.env.vessels import made_vessel
 from guidewire.json_text import problem_of, without_notes
 from guidewire.prepare import DOOR, ROOT
-
-if TYPE_CHECKING:
-    from guidewire.env.draws import Draw
 
 FOLDER = Path(__file__).resolve().parent / "data"
 TASKS_FILE = FOLDER / "tasks.json"
@@ -153,7 +150,6 @@ class Task:
     def by_way(self) -> list[int]:
         """Return the numbers of the targets, the one with the shortest way from the inlet first, in the first
         vessel."""
-        from guidewire.env.draws import Draw
         from guidewire.env.route import Route
 
         first = Draw(0, 0, self.instruments[0] if self.instruments else None, 0.0, 0.0, self.insertion)
