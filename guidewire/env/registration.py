@@ -7,7 +7,8 @@ from typing import Any
 
 from guidewire.env.drive import Drive
 from guidewire.env.environment import Reward
-from guidewire.env.task import Task, all_tasks
+from guidewire.env.spaces import Error
+from guidewire.env.task import Task, all_tasks, find_task
 
 def spec_of(task: Task) -> dict[str, Any]:
     """Return what `gymnasium.register` and a spec in JSON take of a task."""
@@ -27,8 +28,16 @@ def register() -> None:
             registration.register(**known)
 
 
-def make_vector(num_envs: int = 2, **options: object) -> object:
-    """Return a VectorEnvironment, as `gymnasium.make_vec` asks for one."""
+def make_vector(num_envs: int = 2, max_episode_steps: int | None = None, **options: Any) -> object:
+    """Return a VectorEnvironment, as `gymnasium.make_vec` asks for one, with the steps of its spec.
+
+    Raises
+    ------
+    Error : other steps are asked for: an episode ends after the task's time.
+    """
     from guidewire.env.vector import VectorEnvironment
 
+    if max_episode_steps not in (None, spec_of(find_task(options["task"]))["max_episode_steps"]):
+        raise Error(f"max_episode_steps = {max_episode_steps} is not allowed here: an episode ends after the task's "
+                    "time")
     return VectorEnvironment(num_envs=num_envs, **options)

@@ -65,8 +65,11 @@ def test_each_task_has_a_name_by_which_what_it_names_is_made(monkeypatch, tube):
         home, _, name = known["entry_point"].partition(":")
         assert getattr(importlib.import_module(home), name) is Environment
         home, _, name = known["vector_entry_point"].partition(":")
-        with getattr(importlib.import_module(home), name)(2, **{**known["kwargs"], "task": tube}) as vector:
+        make, steps = getattr(importlib.import_module(home), name), {"max_episode_steps": 20}    # as make_vec gives
+        with make(2, **{**known["kwargs"], "task": tube}, **steps) as vector:
             assert vector.num_envs == 2
+        with pytest.raises(Error, match="max_episode_steps = 21 is not allowed"):
+            make(2, **{**known["kwargs"], "task": tube, "max_episode_steps": 21})
 
 
 @pytest.mark.parametrize("script", (
