@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from guidewire.env.randomisation import Draw
 from guidewire.env.instruments import instruments_of, names_of, of_each
+from guidewire.env.randomisation import Draw
 from guidewire.env.reshaping import reshaped
 from guidewire.env.route import Placement, Route
 from guidewire.env.spaces import Error
