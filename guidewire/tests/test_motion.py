@@ -225,11 +225,11 @@ def test_a_lumen_that_narrows_leaves_the_wire_out_of_its_wall(live, tmp_path):
     deepest = np.abs(log.positions[:, :, :2]).max(axis=(1, 2))
     wide = 0.9 - 0.1 * np.cos(2 * np.pi * (log.time / 0.4 - 0.5))
     assert (deepest + 0.4 < wide + 1e-9).all() and (wide - deepest).min() < 0.5
-    for least, expected in ((0.2, "by 1/0.2 thicker for the lumen that narrows, starts outside"),
-                            (-0.5, "the motion closes the vessel")):
-        write_centreline(tmp_path / "narrow.csv", [line], [np.zeros((8, 11, 3))], phases,
-                         [1 - (1 - least) / 0.2 * (1 - scales)])
-        answer = live.run(Request("wrong", tmp_path / "scene.json", tmp_path / f"run{least}"))
+    closed = np.where(np.isin(np.arange(8), (3, 4))[:, None], 0.01, np.ones((8, 11)))    # splines are below 0 between
+    for given, expected in ((1 - 4.0 * (1 - scales), "by 1/0.2 thicker for the lumen that narrows, starts outside"),
+                            (closed, "the motion closes the vessel")):
+        write_centreline(tmp_path / "narrow.csv", [line], [np.zeros((8, 11, 3))], phases, [given])
+        answer = live.run(Request("wrong", tmp_path / "scene.json", tmp_path / "wrong"))
         assert answer.exit_code == 2 and expected in answer.message
 
 
@@ -239,7 +239,8 @@ def test_contrast_agent_goes_with_its_vessel(tmp_path):
     scene = {**SCENE, "rotation": [0, 0, 0], "position": [0, 0, 0], "timeStep": 0.1, "insertionSpeed": 0}
     pictures = []
     for motion in ({}, {"motion": {"period": 0.8, "rampTime": 0, "rigid": {"translation": [0, 0, 12]}}}):
-        vessel = {"shape": "mesh", "file": str(tmp_path / names[0]), "anatomy": str(tmp_path / "anatomy.json"), **motion}
+        vessel = {"shape": "mesh", "file": str(tmp_path / names[0]), "anatomy": str(tmp_path / "anatomy.json"),
+                  **motion}
         with Session(**{**scene, "vessel": vessel}) as session:
             session.step(steps=2)
             session.inject(1.0, 10.0, None)

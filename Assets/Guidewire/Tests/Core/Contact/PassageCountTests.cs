@@ -1,4 +1,6 @@
 using System;
+using System.Collections.Generic;
+using System.Linq;
 using NUnit.Framework;
 
 namespace Guidewire.Core.Tests
@@ -108,12 +110,7 @@ namespace Guidewire.Core.Tests
             return count.Total - before;
         }
 
-        private static Vector3d[] Reversed(Vector3d[] x)
-        {
-            var reversed = (Vector3d[])x.Clone();
-            Array.Reverse(reversed);
-            return reversed;
-        }
+        private static Vector3d[] Reversed(Vector3d[] x) => ((IEnumerable<Vector3d>)x).Reverse().ToArray();
 
         // Every element is asked.
         private sealed class Touching : IWallClearance

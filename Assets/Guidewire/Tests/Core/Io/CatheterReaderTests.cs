@@ -137,8 +137,10 @@ namespace Guidewire.Core.Tests
         public void SessionOfThree_MovesAllHubsInOneStep_OrTheFirstOnes()
         {
             using SimulationSession session = SimulationSession.Open(null, Given(Outer + ", " + Good), true);
-            session.Step(new[] { 1.0, 0.1, 0.5, 0.2, 0.25, 0.3 });
-            session.Step(new[] { 0.5, 0.2 });
+            double[] all = { 1.0, 0.1, 0.5, 0.2, 0.25, 0.3 };
+            double[] one = { 0.5, 0.2 };
+            session.Step(all);
+            session.Step(one);
             CoaxialRecord outer = session.Simulation.Coaxial()!;
             Assert.That(session.Simulation.StepCount, Is.EqualTo(2));
             Assert.That(session.Simulation.Hub()!.Insertion, Is.EqualTo(1.5e-3).Within(1e-15));

@@ -84,7 +84,7 @@ namespace Guidewire.Core.Tests
             ["selfIntersection"] = "'vessel': {'shape': 'mesh', 'file': 'box.obj'}, 'guidewireLength': 10,"
                 + " 'guidewireOffset': -40, 'numberRodElements': 6, 'displacement': 0, 'maxSimulationSteps': 1",
             ["frameMisfit"] = "'solver': 'direct', 'timeStep': 0.01, 'vessel': {'shape': 'mesh', 'file': 'box.obj',"
-                + " 'anatomy': 'box.json', 'motion': {'period': 1, 'frames': ['box.obj', 'box.obj', 'box.obj']}},"
+                + " 'anatomy': 'box.json', 'motion': {'period': 1, 'frames': ['box.obj', 'other.obj', 'box.obj']}},"
                 + " 'guidewireLength': 10, 'guidewireOffset': -40, 'numberRodElements': 6,"
                 + " 'displacement': 0, 'maxSimulationSteps': 1",
             ["softStiff"] = Driven.Replace("'radius'", "'wallStiffness': 1e8, 'radius'") + ", 'maxSimulationSteps': 1",
@@ -148,6 +148,8 @@ namespace Guidewire.Core.Tests
         public void RunWithAWarning_IsAsReliableAsTheTableSays([ValueSource(nameof(Names))] string name)
         {
             File.WriteAllText(Path.Combine(Folder, "box.obj"), PiercedBox);
+            File.WriteAllText(Path.Combine(Folder, "other.obj"), Regex.Replace(PiercedBox, "v (\\S+)", "v $1.5",
+                RegexOptions.None, TimeSpan.FromSeconds(1.0)));
             File.WriteAllText(Path.Combine(Folder, "box.json"), ("{'ends': [{'number': 1, 'name': 'top', 'centre': "
                 + "[0, 0, 40], 'radius': 9, 'direction': [0, 0, -1], 'open': false, 'point': 0}], 'centreline': {"
                 + "'points': [[0, 0, 40, 9], [0, 0, -40, 9]], 'parents': [-1, 0], 'branches': [1, 1], 'names': "
