@@ -13,7 +13,7 @@ namespace Guidewire.Cli
     /// bits.</summary>
     internal sealed class SessionHost
     {
-        /// <summary>Meshes that a process keeps for its sessions: of the few vessels that one after another has.</summary>
+        /// <summary>Meshes that a process keeps for its sessions: those of the few vessels that they have.</summary>
         public const int MeshesKept = 6;
 
         private readonly Func<bool> _stopRequested;
@@ -69,8 +69,7 @@ namespace Guidewire.Cli
                     TakePlaces(request, answer);
                     return;
                 case "drive":
-                    answer["tables"] = new JArray(Enumerable.Range(0, Opened().InstrumentCount)
-                        .Select(Opened().DriveTable));
+                    answer["tables"] = new JArray(Opened().DriveTables());
                     return;
                 case "change":
                     _pictures = null;

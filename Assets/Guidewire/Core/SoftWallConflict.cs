@@ -111,8 +111,8 @@ namespace Guidewire.Core
     /// <summary>Displacements of soft walls at all instruments of a run.</summary>
     public static class SoftWallDisplacements
     {
-        /// <summary>Those at the elements of the wire and then of each catheter, m; of none where all walls are rigid.
-        /// </summary>
+        /// <summary>Displacements at the elements of the wire and then of each catheter, m; none where all walls are
+        /// rigid.</summary>
         public static IEnumerable<Vector3d[]> Of(Simulation run)
         {
             if (run.Contacts == null || run.Contacts.Displacements.Length == 0)

@@ -291,14 +291,14 @@ namespace Guidewire.Core
             WeightAlongB = weightAlongB;
         }
 
-        /// <summary>Gives the same of the segment b a.</summary>
+        /// <summary>Gives this contact as the segment b a has it.</summary>
         public EdgeContact Reversed()
         {
             return new EdgeContact(1.0 - Position, Distance, Normal, Weight, WeightAlongB, WeightAlongA, Angle,
                 Rounding, -SlideAlongB, -SlideAlongA, Curvature);
         }
 
-        /// <summary>The same with what its second derivative takes.</summary>
+        /// <summary>Gives this contact with what the second derivative of its distance takes.</summary>
         public EdgeContact Sliding(in Vector3d alongA, in Vector3d alongB, in Symmetric3 curvature)
         {
             return new EdgeContact(Position, Distance, Normal, Weight, WeightAlongA, WeightAlongB, Angle, Rounding,

@@ -62,7 +62,7 @@ namespace Guidewire.Core
         /// <summary>The length of the centreline, units.</summary>
         public double Length { get; }
 
-        /// <summary>Of the splines, units.</summary>
+        /// <summary>The spacing of the splines, units.</summary>
         public double Spacing { get; }
 
         /// <summary>The number of splines.</summary>

@@ -220,7 +220,7 @@ namespace Guidewire.Core
             return new PatientAxes(cos * left - sin * chest, cos * chest + sin * left, head);
         }
 
-        /// <summary>The same after a vessel that has them was placed in the scene.</summary>
+        /// <summary>Gives the axes after a vessel that has them was placed in the scene.</summary>
         public PatientAxes Turned(Placement placement)
         {
             Vector3d origin = placement.Apply(Vector3d.Zero);

@@ -257,8 +257,8 @@ namespace Guidewire.Core
         public string? FindTurned(RodShape shape, double time, double done = 1.0) =>
             FindTurned(shape, time, done, _least);
 
-        /// <summary>The same of a joint that is turned by more than half a turn: a wire that turned as it should would
-        /// have been found before.</summary>
+        /// <summary>The joint that is turned by more than half a turn, its angle and what would help, in one line; or
+        /// null. A wire that turned as it should would have been found before.</summary>
         public string? FindPassed(RodShape shape, double time) => FindTurned(shape, time, 1.0, 0.0);
 
         // That whose cos(a/2) is the least, below a limit.

@@ -228,8 +228,8 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>The same for the wire from a position on, units, which is in an element, with its whole
-        /// radius.</summary>
+        /// <summary>Why the wire from a position on cannot start, with its whole radius, or null. The position, in
+        /// units, is in an element.</summary>
         public static string? FindProblemFrom(MaterialScene scene, int element, in Vector3d position,
             string name = Wire)
         {

@@ -59,7 +59,7 @@ namespace Guidewire.Core
         /// go on.</summary>
         public CancellationToken Cancellation { get; set; }
 
-        /// <summary>The same values; lists and walls are shared.</summary>
+        /// <summary>Gives a copy of these parameters; lists and walls are shared.</summary>
         internal MethodParameters Copy() => (MethodParameters)MemberwiseClone();
     }
 
@@ -135,7 +135,7 @@ namespace Guidewire.Core
         /// <summary>M in mass units, distributed evenly over the spheres (thesis eq. 3.2).</summary>
         public double TotalMass { get; set; } = 0.01;
 
-        /// <summary>The same values; lists and walls are shared.</summary>
+        /// <summary>Gives a copy of these parameters; lists and walls are shared.</summary>
         internal PbdParameters Copy() => (PbdParameters)MemberwiseClone();
     }
 }

@@ -50,13 +50,13 @@ namespace Guidewire.Io
         /// <summary>Every method.</summary>
         public static IReadOnlyList<Solver> All { get; } = Where(method => true);
 
-        /// <summary>Those whose wire has a stiffness per iteration.</summary>
+        /// <summary>Methods whose wire has a stiffness per iteration.</summary>
         public static IReadOnlyList<Solver> Pbd { get; } = Where(method => !method.TakesMaterial);
 
-        /// <summary>Those whose wire is a material.</summary>
+        /// <summary>Methods whose wire is a material.</summary>
         public static IReadOnlyList<Solver> Material { get; } = Where(method => method.TakesMaterial);
 
-        /// <summary>Those that meet walls.</summary>
+        /// <summary>Methods that meet walls.</summary>
         public static IReadOnlyList<Solver> Walls { get; } = Where(method => method.MeetsWalls);
 
         /// <summary>Gives these methods.</summary>

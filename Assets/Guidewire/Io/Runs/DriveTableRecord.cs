@@ -137,8 +137,9 @@ namespace Guidewire.Io
                 {
                     _carried[hub] += reached - end;    // a hub that carries this one along does so again
                 }
-                _rows[hub].Add(new Row(end, last.Turn + motion[2 * hub + 1]));
-                if (!IsExact(end, last.Turn + motion[2 * hub + 1]))
+                var row = new Row(end, last.Turn + motion[2 * hub + 1]);
+                _rows[hub].Add(row);
+                if (!IsExact(row.Insertion, row.Turn))
                 {
                     End(TooFar);
                 }
@@ -150,18 +151,20 @@ namespace Guidewire.Io
         // A hub that slips does so again; one wire alone may be driven on where it is withdrawn, not at the exit.
         private bool IsStoppedByOthers(int hub, double displacement, Simulation simulation)
         {
-            double slipped = hub == 0 ? simulation.Hub()!.SlippedFrom : simulation.Catheters()[hub - 1].SlippedFrom;
-            return _meetsOthers[hub] && double.IsNaN(slipped) && (_rows.Length > 1 || displacement > 0.0);
+            return _meetsOthers[hub] && (_rows.Length > 1 || displacement > 0.0) && double.IsNaN(
+                hub == 0 ? simulation.Hub()!.SlippedFrom : simulation.Catheters()[hub - 1].SlippedFrom);
         }
 
         private static bool IsOpposed(double[] motion, int hub)
         {
-            bool isOpposed = false;
             for (int k = 0; k < motion.Length; k += 2)
             {
-                isOpposed |= motion[k] * motion[2 * hub] < 0.0;
+                if (motion[k] * motion[2 * hub] < 0.0)
+                {
+                    return true;
+                }
             }
-            return isOpposed;
+            return false;
         }
 
         /// <summary>Sets the tables as drives of a steered run's parameters, and its end.</summary>

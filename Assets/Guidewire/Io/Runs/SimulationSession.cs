@@ -246,9 +246,16 @@ namespace Guidewire.Io
         public string DriveTable(int hub)
         {
             CheckHub(hub);
+            return DriveTables()[hub];
+        }
+
+        /// <summary>Gives the tables of all hubs, the wire's first; errors as of one.</summary>
+        internal string[] DriveTables()
+        {
             string? problem = _steered == null ? "this session does not record how it is steered"
                 : _steered.Problem.Length > 0 ? _steered.Problem : FindProblemOfTables(_steered);
-            return problem == null ? _steered!.ToCsv(hub) : throw new ParameterException(problem);
+            return problem == null ? Enumerable.Range(0, InstrumentCount).Select(_steered!.ToCsv).ToArray()
+                : throw new ParameterException(problem);
         }
 
         // Why a run that the tables drive is refused, or begins with other bits than this one.

@@ -181,7 +181,7 @@ namespace Guidewire.Core
             return sum;
         }
 
-        /// <summary>Gives the same, term by term.</summary>
+        /// <summary>Gives the sum of the terms' energies, J, and each of them.</summary>
         /// <param name="values">Receives the energy of each term, J.</param>
         public static double Value(EnergyTerm[] terms, RodShape shape, double[] values, out double magnitude)
         {
@@ -192,7 +192,7 @@ namespace Guidewire.Core
             return Sum(values, out magnitude);
         }
 
-        /// <summary>The same once more, after every term was anchored in that shape.</summary>
+        /// <summary>Gives the sum of the terms' energies, J, after every term was anchored in their shape.</summary>
         public static double AnchoredValue(EnergyTerm[] terms, double[] values, out double magnitude)
         {
             for (int k = 0; k < terms.Length; k++)

@@ -207,7 +207,7 @@ namespace Guidewire.Core
         private readonly double _units;           // per metre
         private readonly MaterialRod _rod;
 
-        /// <summary>Of a wire whose places and gaps are kept elsewhere.</summary>
+        /// <summary>Makes the motion of a wire whose places and gaps are kept elsewhere.</summary>
         public GapMotion(MaterialRod rod, WallLaw[] laws, NeighbourList near,
             (Vector3d[][] Now, Vector3d[][] Next) nodes, (double[] OfNodes, double[] OfElements) gaps, double units)
         {

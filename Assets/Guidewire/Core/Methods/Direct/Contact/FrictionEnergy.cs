@@ -465,7 +465,7 @@ namespace Guidewire.Core
         private Anchor[] _anchors;                // of each wall the nodes', then the elements'
         private Anchor[] _spare;                  // for those of a wire whose elements change
 
-        /// <summary>Of a wire that touches nothing.</summary>
+        /// <summary>Makes the anchors of a wire that touches nothing.</summary>
         /// <param name="capacity">The most elements that it will have.</param>
         public FrictionAnchors(int wallCount, int elementCount, int capacity = 0)
         {

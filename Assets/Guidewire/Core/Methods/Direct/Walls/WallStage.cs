@@ -321,7 +321,7 @@ namespace Guidewire.Core
         private readonly double[] _shadow;   // 2 r l, m^2
         private readonly double[] _force;     // N
 
-        /// <summary>Those of a rod's contacts.</summary>
+        /// <summary>Makes the forces of a rod's contacts.</summary>
         public ElementContactForces(MaterialRod rod, BarrierEnergy barrier)
         {
             _rod = rod;
